@@ -1,0 +1,97 @@
+"""pathloom: evolutionary path planning on occupancy grids.
+
+Names are loaded when they are first used, so that ``import pathloom`` is quick.
+"""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pathloom import compiled as compiled
+    from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
+    from pathloom.exact import any_angle_path, octile_path, validate
+    from pathloom.grid import OccupancyGrid, write_map
+    from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
+    from pathloom.kernel.counting import count
+    from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
+    from pathloom.kernel.evolution import Control, Evolution
+    from pathloom.kernel.observer import Observer
+    from pathloom.kernel.operators import (
+        Crossover,
+        Indices,
+        Migration,
+        Mutation,
+        Pairing,
+        Probability,
+        Repair,
+        Sampling,
+        Selection,
+        Survival,
+    )
+    from pathloom.kernel.planner import Fidelity, Outcome, Planner
+    from pathloom.kernel.plugins import Add, hookimpl
+    from pathloom.kernel.problem import Problem
+    from pathloom.kernel.representation import Population, Representation
+    from pathloom.kernel.state import Deme, State
+    from pathloom.kernel.termination import Termination
+    from pathloom.paths.cell_paths import CellPaths, Path
+    from pathloom.paths.collision import Collision
+    from pathloom.paths.maps import Map, load_map
+    from pathloom.paths.pathwise import PathCrossover, PathMutation, PathObjective, PathRepair, PathSampling
+    from pathloom.paths.problem import PathProblem
+    from pathloom.planning import compose, freeze, iterate, plan
+    from pathloom.result import Result
+
+_HOME = {
+    "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
+    "exact": ("any_angle_path", "octile_path", "validate"),
+    "grid": ("OccupancyGrid", "write_map"),
+    "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
+    "kernel.counting": ("count",),
+    "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),
+    "kernel.evolution": ("Control", "Evolution"),
+    "kernel.observer": ("Observer",),
+    "kernel.operators": (
+        "Crossover", "Indices", "Migration", "Mutation", "Pairing", "Probability", "Repair", "Sampling", "Selection",
+        "Survival",
+    ),
+    "kernel.planner": ("Fidelity", "Outcome", "Planner"),
+    "kernel.plugins": ("Add", "hookimpl"),
+    "kernel.problem": ("Problem",),
+    "kernel.representation": ("Population", "Representation"),
+    "kernel.state": ("Deme", "State"),
+    "kernel.termination": ("Termination",),
+    "paths.cell_paths": ("CellPaths", "Path"),
+    "paths.collision": ("Collision",),
+    "paths.maps": ("Map", "load_map"),
+    "paths.pathwise": ("PathCrossover", "PathMutation", "PathObjective", "PathRepair", "PathSampling"),
+    "paths.problem": ("PathProblem",),
+    "planning": ("compose", "freeze", "iterate", "plan"),
+    "result": ("Result",),
+}  # fmt: skip
+_FROM = {name: module for module, names in _HOME.items() for name in names}
+
+__all__ = [  # noqa: PLE0604 - the names above, in order
+    "__version__",
+    "compiled",
+    *sorted(_FROM),
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _FROM:
+        value = getattr(importlib.import_module(f"pathloom.{_FROM[name]}"), name)
+    elif name == "compiled":
+        value = importlib.import_module("pathloom.compiled")
+    elif name == "__version__":
+        from importlib.metadata import version
+
+        value = version("pathloom")
+    else:
+        raise AttributeError(f"module 'pathloom' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

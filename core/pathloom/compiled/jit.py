@@ -1,0 +1,86 @@
+"""Decorators that compile a kernel for one signature, and tell who listens how far that is.
+
+Signatures are explicit and integers are always int64: each kernel is compiled
+once, when its family is loaded, and never again for another type. Where no
+cache folder can be written the kernels are compiled in every process; nothing
+else changes.
+"""
+
+import importlib.util
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+from numba import njit
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+SHARED = ("random", "rows", "segments", "cells")
+"""Modules that families draw on; those that are not loaded yet are counted with the family."""
+
+Listener = Callable[[int, int], None]
+"""Called after a kernel was compiled (not: taken from the cache), with the number of kernels done and in all."""
+
+_lock = threading.RLock()
+_listeners: list[Listener] = []
+_progress = {"done": 0, "all": 0}
+
+
+@contextmanager
+def loading(family: str) -> Iterator[None]:
+    """Count the kernels of a family while it is loaded; one thread at a time loads."""
+    with _lock:
+        before = dict(_progress)
+        names = [f"{__package__}.{name}" for name in dict.fromkeys((*SHARED, family))]
+        _progress.update(done=0, all=sum(_kernels_in(name) for name in names if name not in sys.modules))
+        try:
+            yield
+        finally:
+            _progress.update(before)
+
+
+def _kernels_in(module: str) -> int:
+    spec = importlib.util.find_spec(module)
+    text = Path(spec.origin).read_text(encoding="utf-8") if spec and spec.origin else ""
+    return text.count("\n@kernel(") + text.count("\n@part(")
+
+
+@contextmanager
+def listening(listener: Listener) -> Iterator[None]:
+    """Tell ``listener`` of every kernel that has to be compiled meanwhile."""
+    _listeners.append(listener)
+    try:
+        yield
+    finally:
+        _listeners.remove(listener)
+
+
+def _compiled(signature: str, function: F, **options: Any) -> F:
+    began = time.perf_counter()
+    try:
+        kernel = njit(signature, cache=True, nogil=True, no_cfunc_wrapper=True, **options)(function)
+    except RuntimeError as error:
+        if "cannot cache" not in str(error):
+            raise
+        kernel = njit(signature, nogil=True, no_cfunc_wrapper=True, **options)(function)
+    _progress["done"] += 1
+    stats = getattr(kernel, "stats", None)  # a plain function where compilation is switched off
+    hit = stats is not None and sum(stats.cache_hits.values()) > 0
+    if stats is not None and not hit and time.perf_counter() - began > 0.02:
+        for listener in _listeners:
+            listener(_progress["done"], _progress["all"])
+    return kernel  # type: ignore[no-any-return]
+
+
+def kernel(signature: str) -> Callable[[F], F]:
+    """Compile a function that Python calls."""
+    return lambda function: _compiled(signature, function)
+
+
+def part(signature: str) -> Callable[[F], F]:
+    """Compile a function that only kernels call."""
+    return lambda function: _compiled(signature, function)

@@ -1,0 +1,79 @@
+"""Rows of a population inside kernels: lengths, copies, packing.
+
+Loops instead of slices: they run as fast, and compile many times faster.
+"""
+
+import numpy as np
+
+from pathloom.compiled.jit import part
+
+
+@part("int64(int32[::1])")
+def length_of(row):  # type: ignore[no-untyped-def]
+    """Return how many cells a padded row holds: the first −1, by bisection."""
+    low, high = 0, row.shape[0]
+    while low < high:
+        middle = (low + high) // 2
+        if row[middle] < 0:
+            high = middle
+        else:
+            low = middle + 1
+    return low
+
+
+@part("int32[:, ::1](int64, int64)")
+def blank(n, width):  # type: ignore[no-untyped-def]
+    """Return a population of n empty rows."""
+    out = np.empty((n, width), np.int32)
+    for k in range(n):
+        for i in range(width):
+            out[k, i] = -1
+    return out
+
+
+@part("void(int32[::1], int64, int32[::1], int64, int64)")
+def copy(to, at, of, begin, count):  # type: ignore[no-untyped-def]
+    """Copy ``count`` cells from ``of[begin:]`` to ``to[at:]``."""
+    for i in range(count):
+        to[at + i] = of[begin + i]
+
+
+@part("int64(int32[:, ::1])")
+def widest(population):  # type: ignore[no-untyped-def]
+    """Return the greatest number of cells in a row, at least 1."""
+    most = 1
+    for k in range(population.shape[0]):
+        most = max(most, length_of(population[k]))
+    return most
+
+
+@part("int32[::1](int32[::1], int64, int64)")
+def with_room(flat, used, more):  # type: ignore[no-untyped-def]
+    """Return the array itself if ``more`` cells fit behind the used ones, else a larger copy."""
+    if used + more <= flat.shape[0]:
+        return flat
+    larger = np.empty(2 * flat.shape[0] + more, np.int32)
+    copy(larger, 0, flat, 0, used)
+    return larger
+
+
+@part("int32[:, ::1](int32[::1], int64[::1], int64)")
+def unpack(flat, begin, n):  # type: ignore[no-untyped-def]
+    """Return n paths that stand one after the other as the rows of a padded array."""
+    most = 1
+    for k in range(n):
+        most = max(most, begin[k + 1] - begin[k])
+    out = blank(n, most)
+    for k in range(n):
+        copy(out[k], 0, flat, begin[k], begin[k + 1] - begin[k])
+    return out
+
+
+@part("uint64(int32[::1], int64)")
+def hash_of(path, count):  # type: ignore[no-untyped-def]
+    """Return a 64-bit hash of a path (FNV-1a with a shift mixed in)."""
+    value = np.uint64(14695981039346656037)
+    for i in range(count):
+        value = (value ^ np.uint64(path[i])) * np.uint64(1099511628211)
+        value ^= value >> np.uint64(29)
+    return value

@@ -1,0 +1,202 @@
+"""Segments between cell centres, against obstacle cells, in exact integers.
+
+A cell at offset (i, j) along the longer and the shorter axis of a segment with
+extents (n, m), n ≥ m, overlaps it iff ``|2 (n j − m i)| < n + m`` (separating
+axes on the unit cell: the third axis is the segment's normal) and touches it
+in one corner iff the two sides are equal.
+
+Corner policies: 0 ``allow``, only the inside of an obstacle cell blocks;
+1 ``no-squeeze``, nor may a segment pass between two obstacles that share a
+corner; 2 ``strict``, an obstacle may not even be touched.
+"""
+
+import math
+
+import numpy as np
+
+from pathloom.compiled.jit import kernel, part
+from pathloom.compiled.rows import blank, copy, length_of
+
+
+@part("boolean(uint8[::1], int64, int64, int64, int64)")
+def segment_free(blocked, cols, a, b, policy):  # type: ignore[no-untyped-def]
+    """Say whether the segment from cell a to cell b is free under a corner policy."""
+    dr = b // cols - a // cols
+    dc = b % cols - a % cols
+    step_r = cols if dr > 0 else -cols
+    step_c = 1 if dc > 0 else -1
+    if abs(dc) >= abs(dr):
+        n, m, along, across = abs(dc), abs(dr), step_c, step_r
+    else:
+        n, m, along, across = abs(dr), abs(dc), step_r, step_c
+    limit = n + m
+    low = 0  # first j of this i that the segment meets
+    side = 0  # 2 (n low − m i)
+    here = a  # the cell (i, low)
+    for _ in range(n + 1):
+        while side < -limit or (side == -limit and policy != 2):
+            low += 1
+            side += 2 * n
+            here += across
+        j, value, cell = low, side, here
+        while value < limit and j <= m:
+            if blocked[cell]:
+                return False
+            j += 1
+            value += 2 * n
+            cell += across
+        if value == limit and j <= m and policy != 0 and blocked[cell]:
+            # Touched from below; at the same corner lies the cell one further along and one back across.
+            if policy == 2 or blocked[cell + along - across]:
+                return False
+        side -= 2 * m
+        here += along
+    return True
+
+
+@kernel("boolean[::1](uint8[::1], int64, int32[::1], int32[::1], int64)")
+def segments_free(blocked, cols, first, second, policy):  # type: ignore[no-untyped-def]
+    """Test many segments: first[k] to second[k]."""
+    free = np.empty(first.shape[0], np.bool_)
+    for k in range(first.shape[0]):
+        free[k] = segment_free(blocked, cols, first[k], second[k], policy)
+    return free
+
+
+@kernel("int32[:, ::1](int32[:, ::1], uint8[::1], int64, int64, int64)")
+def delete_points(population, blocked, cols, policy, passes):  # type: ignore[no-untyped-def]
+    """Drop every interior point whose neighbours see each other, in the order of the path.
+
+    A point that is dropped leaves its predecessor to look at the next one.
+    ``passes``: how often; 0: until nothing changes.
+    """
+    n, width = population.shape
+    out = blank(n, width)
+    most = 1
+    for k in range(n):
+        count = length_of(population[k])
+        row = out[k]
+        copy(row, 0, population[k], 0, count)
+        done = 0
+        while passes == 0 or done < passes:
+            kept = min(count, 1)
+            for i in range(1, count):
+                if i == count - 1 or not segment_free(blocked, cols, row[kept - 1], row[i + 1], policy):
+                    row[kept] = row[i]
+                    kept += 1
+            for i in range(kept, count):
+                row[i] = -1
+            done += 1
+            if kept == count:
+                break
+            count = kept
+        most = max(most, count)
+    trimmed = blank(n, most)
+    for k in range(n):
+        copy(trimmed[k], 0, out[k], 0, most)
+    return trimmed
+
+
+@part("float64(float64, float64, float64, float64, float64, float64)")
+def _point_to_segment(px, py, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+    dx, dy = bx - ax, by - ay
+    squared = dx * dx + dy * dy
+    t = 0.0 if squared == 0.0 else ((px - ax) * dx + (py - ay) * dy) / squared
+    t = min(1.0, max(0.0, t))
+    return math.hypot(px - ax - t * dx, py - ay - t * dy)
+
+
+@part("float64(int64, int64, int64, int64, int64, int64)")
+def _segment_to_cell(ar, ac, br, bc, r, c):  # type: ignore[no-untyped-def]
+    """Return the distance between a segment and the unit square of a cell; 0 where they meet."""
+    dr, dc = br - ar, bc - ac
+    inside = min(ar, br) <= r <= max(ar, br) and min(ac, bc) <= c <= max(ac, bc)
+    if inside and 2 * abs(dc * (r - ar) - dr * (c - ac)) <= abs(dr) + abs(dc):
+        return 0.0
+    best = np.inf
+    for k in range(4):
+        corner_r, corner_c = r + (k // 2) - 0.5, c + (k % 2) - 0.5
+        best = min(best, _point_to_segment(corner_r, corner_c, ar, ac, br, bc))
+    for k in range(2):
+        end_r, end_c = (ar, ac) if k == 0 else (br, bc)
+        best = min(best, math.hypot(max(abs(end_r - r) - 0.5, 0.0), max(abs(end_c - c) - 0.5, 0.0)))
+    return best
+
+
+@kernel("float64[::1](int32[:, ::1], uint8[::1], float64[::1], int64, int64)")
+def clearances(population, blocked, distance, rows, cols):  # type: ignore[no-untyped-def]
+    """Return each path's least distance to the border of an obstacle cell; inf where there is none.
+
+    ``distance`` holds for each cell the distance of its centre to the nearest
+    obstacle's centre. A point in a cell lies within √½ of the centre and so does
+    a border, so only cells within √2 of the least distance can hold the closest
+    point of the path.
+    """
+    n = population.shape[0]
+    found = np.full(n, np.inf)
+    for k in range(n):
+        count = length_of(population[k])
+        best = np.inf
+        for i in range(count):
+            best = min(best, distance[population[k, i]])
+        if best == np.inf:
+            continue
+        for i in range(max(count - 1, 1)):
+            a = population[k, i]
+            b = population[k, min(i + 1, count - 1)]
+            ar, ac, br, bc = a // cols, a % cols, b // cols, b % cols
+            steps = max(abs(br - ar), abs(bc - ac), 1)
+            for s in range(steps + 1):
+                r = int(round(ar + (br - ar) * s / steps))
+                c = int(round(ac + (bc - ac) * s / steps))
+                # the sample lies within 1 of every point of its stretch of the segment
+                if distance[r * cols + c] > best + 2.5:
+                    continue
+                reach = int(math.ceil(best + 2.0))
+                for rr in range(max(r - reach, 0), min(r + reach, rows - 1) + 1):
+                    for cc in range(max(c - reach, 0), min(c + reach, cols - 1) + 1):
+                        if blocked[rr * cols + cc]:
+                            best = min(best, _segment_to_cell(ar, ac, br, bc, rr, cc))
+        found[k] = best
+    return found
+
+
+@kernel("float64[::1](int32[:, ::1], uint8[::1], int64)")
+def flagged_cells(population, flag, cols):  # type: ignore[no-untyped-def]
+    """Count for each path the distinct cells with a flag whose inside it crosses, both ends included."""
+    n = population.shape[0]
+    found = np.zeros(n)
+    seen = np.zeros(flag.shape[0], np.int32)
+    for k in range(n):
+        count = length_of(population[k])
+        total = 0
+        for i in range(max(count - 1, 1)):
+            a = population[k, i]
+            b = population[k, min(i + 1, count - 1)]
+            dr, dc = b // cols - a // cols, b % cols - a % cols
+            step_r = cols if dr > 0 else -cols
+            step_c = 1 if dc > 0 else -1
+            if abs(dc) >= abs(dr):
+                extent, m, along, across = abs(dc), abs(dr), step_c, step_r
+            else:
+                extent, m, along, across = abs(dr), abs(dc), step_r, step_c
+            limit = extent + m
+            low = side = 0
+            here = a
+            for _ in range(extent + 1):
+                while limit > 0 and side <= -limit:
+                    low += 1
+                    side += 2 * extent
+                    here += across
+                j, value, cell = low, side, here
+                while j <= m and (value < limit or limit == 0):
+                    if seen[cell] != k + 1:
+                        seen[cell] = k + 1
+                        total += flag[cell]
+                    j += 1
+                    value += 2 * extent
+                    cell += across
+                side -= 2 * m
+                here += along
+        found[k] = total
+    return found

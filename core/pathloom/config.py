@@ -1,0 +1,173 @@
+"""Config: what a TOML file or a command line asks for, and its complete form."""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from pathloom.errors import ConfigError, PathloomError
+from pathloom.kernel.compose import compose, freeze
+from pathloom.kernel.names import closest
+from pathloom.kernel.planner import Planner
+from pathloom.kernel.run import check_seed
+from pathloom.paths.maps import SUFFIXES, load_map
+from pathloom.paths.problem import CORNER_NAMES, PathProblem
+
+DEFAULT_PLANNER = "imga"
+DEFAULT_MAP = "blocks-30:25%"
+"""The map that is planned on when nobody names one."""
+
+SECTIONS = ("problem", "planner", "run")
+RUN = ("seed", "time_limit")
+
+
+@dataclass(frozen=True)
+class ProblemSpec:
+    """A path problem as text and numbers, before any file is read."""
+
+    map: str = DEFAULT_MAP
+    start: Any = "bottom-left"
+    goal: Any = "top-right"
+    corners: str = "strict"
+    radius: float = 0.0
+    world: bool = False
+    """Whether start and goal are x and y in metres."""
+    unknown: str = "occupied"
+    threshold: int | None = None
+
+    def build(self) -> PathProblem:
+        """Read the map and return the problem."""
+        if self.unknown not in ("occupied", "free"):
+            raise ConfigError(f"problem.unknown: found {self.unknown!r}, allowed 'occupied' or 'free'")
+        if not isinstance(self.map, str):
+            raise ConfigError(f"problem.map: found {self.map!r}, allowed a name or a file")
+        grid = load_map(
+            self.map,
+            unknown=self.unknown,  # type: ignore[arg-type]
+            threshold=self.threshold,
+            corners=self.corners if self.corners in ("allow", "no-squeeze") else "strict",  # type: ignore[arg-type]
+        )
+        start, goal = self.start, self.goal
+        if self.world:
+            start = start if isinstance(start, str) else grid.cell_at(*_two_numbers("start", start))
+            goal = goal if isinstance(goal, str) else grid.cell_at(*_two_numbers("goal", goal))
+        return PathProblem(grid, start=start, goal=goal, radius=self.radius, corners=self.corners)  # type: ignore[arg-type]
+
+
+@dataclass(frozen=True)
+class Config:
+    """Everything that a run of ``plan`` depends on."""
+
+    problem: ProblemSpec = field(default_factory=ProblemSpec)
+    planner: Mapping[str, Any] | Planner = field(default_factory=lambda: {"use": DEFAULT_PLANNER})
+    seed: int = 0
+    time_limit: float | None = None
+
+    def composed(self) -> "Config":
+        """Return the config with its planner built."""
+        if isinstance(self.planner, Planner):
+            return self
+        return replace(self, planner=compose(self.planner))
+
+
+def read_config(path: str | Path) -> Config:
+    """Return the config in a TOML file.
+
+    Raises
+    ------
+    ConfigError
+        If the file cannot be read or is no TOML, or says something unknown;
+        the message names file, key, what was found, and what was probably meant.
+    """
+    text = str(path)
+    try:
+        with Path(path).open("rb") as file:
+            document = tomllib.load(file)
+    except OSError as error:
+        raise ConfigError(f"{text}: {error.strerror or error}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"{text}: no TOML: {' '.join(str(error).split())}") from error
+    try:
+        return from_document(document, Path(path).parent)
+    except PathloomError as error:
+        raise type(error)(f"{text}: {error}") from error
+
+
+def from_document(document: Mapping[str, Any], folder: Path | None = None) -> Config:
+    """Return the config in a table with the sections ``problem``, ``planner`` and ``run``.
+
+    ``folder``: what file names of maps are relative to.
+    """
+    _known("", document, SECTIONS)
+    problem, planner, run = (_table(document, name) for name in SECTIONS)
+    _known("problem", problem, list(ProblemSpec.__dataclass_fields__))
+    _known("run", run, RUN)
+    spec = ProblemSpec(**problem)
+    if folder is not None and "map" in problem and isinstance(spec.map, str) and _is_file_name(spec.map):
+        spec = replace(spec, map=str(folder / spec.map))
+    limit = run.get("time_limit")
+    if limit == "none":
+        limit = None
+    if limit is not None and (isinstance(limit, bool) or not isinstance(limit, (int, float)) or not limit > 0):
+        raise ConfigError(f"run.time_limit: found {limit!r}, allowed seconds above 0")
+    try:
+        seed = check_seed(run.get("seed", 0))
+    except ConfigError as error:
+        raise ConfigError(f"run.{error}") from error
+    return Config(spec, {"use": DEFAULT_PLANNER, **planner}, seed, limit)
+
+
+def frozen(problem: PathProblem, map_name: str, planner: Planner, seed: int, time_limit: float | None) -> dict[str, Any]:
+    """Return the complete config of a run, every default filled in."""
+    return {
+        "problem": {
+            "map": map_name,
+            "start": list(problem.ends[0]),
+            "goal": list(problem.ends[1]),
+            "corners": problem.corners,
+            "radius": problem.radius,
+        },
+        "planner": freeze(planner),
+        "run": {"seed": seed, "time_limit": time_limit if time_limit is not None else "none"},
+    }
+
+
+def parse_place(text: str, name: str, *, world: bool = False) -> Any:
+    """Return what ``ROW,COL``, ``X,Y`` (metres) or the name of a corner stands for."""
+    if text in CORNER_NAMES:
+        return text
+    parts = text.split(",")
+    try:
+        if len(parts) != 2:
+            raise ValueError
+        return tuple((float if world else int)(part) for part in parts)
+    except ValueError:
+        kind = "X,Y in metres" if world else "ROW,COL"
+        raise ConfigError(f"{name}: found {text!r}, allowed {kind} or a corner; {closest(text, CORNER_NAMES)}") from None
+
+
+def _is_file_name(name: str) -> bool:
+    return Path(name).suffix.lower() in SUFFIXES or "/" in name or "\\" in name
+
+
+def _two_numbers(end: str, value: Any) -> tuple[float, float]:
+    try:
+        x, y = (float(v) for v in value)
+    except (TypeError, ValueError):
+        raise ConfigError(f"problem.{end}: found {value!r}, allowed x and y in metres") from None
+    return x, y
+
+
+def _table(document: Mapping[str, Any], name: str) -> dict[str, Any]:
+    value = document.get(name, {})
+    if not isinstance(value, Mapping):
+        raise ConfigError(f"{name}: found {value!r}, allowed a table")
+    return dict(value)
+
+
+def _known(section: str, table: Mapping[str, Any], allowed: Any) -> None:
+    for key in table:
+        if key not in allowed:
+            at = f"{section}.{key}" if section else key
+            raise ConfigError(f"{at}: no such {'key' if section else 'section'}; {closest(key, allowed)}")

@@ -1,0 +1,1 @@
+"""The kernel: populations, values, operators, slots, states and names. It knows nothing of paths."""

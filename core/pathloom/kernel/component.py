@@ -1,0 +1,209 @@
+"""Component: the one shape of everything that a config can name.
+
+A component is a frozen, keyword-only dataclass. Its fields are its parameters;
+a field whose type is itself a kind of component is a *slot*. Nothing else is
+remembered between calls, so a component can be compared, hashed, pickled,
+frozen into a config and rebuilt from it.
+"""
+
+import dataclasses
+import math
+import re
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from functools import cache
+from typing import Annotated, Any, ClassVar, Literal, Union
+
+import msgspec
+import numpy as np
+
+from pathloom.errors import ConfigError
+
+Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
+"""A probability or a fraction."""
+Count = Annotated[int, msgspec.Meta(ge=1)]
+"""At least one."""
+Whole = Annotated[int, msgspec.Meta(ge=0)]
+"""Zero or more."""
+NonNegative = Annotated[float, msgspec.Meta(ge=0.0)]
+"""A real number, zero or more."""
+Positive = Annotated[float, msgspec.Meta(gt=0.0)]
+"""A real number above zero."""
+
+
+def kebab(name: str) -> str:
+    """Turn a class name into a component's name: ``MedianInsertion`` into ``median-insertion``."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "-", name).lower()
+
+
+class Component:
+    """Base of all kinds.
+
+    A *kind* is a subclass that sets ``kind``; a component is a dataclass that
+    inherits from a kind. Its name is its class name in kebab case unless the
+    class sets ``name``.
+    """
+
+    kind: ClassVar[str] = ""
+    """The kind's name, which is also the usual name of the slot that takes it."""
+    name: ClassVar[str] = ""
+    """The component's name within its plugin."""
+    source: ClassVar[str] = ""
+    """Where it comes from: author, year, section or equation."""
+    works_on: ClassVar[str] = ""
+    """Name of the representation that it needs; empty: any."""
+    needs: ClassVar[frozenset[str]] = frozenset()
+    """Properties that the individuals must have when they reach it."""
+    gives: ClassVar[frozenset[str]] = frozenset()
+    """Properties that the individuals which it makes have."""
+    breaks: ClassVar[frozenset[str]] = frozenset()
+    """Properties that individuals may lose in it."""
+    of_the_slot: ClassVar[tuple[str, ...]] = ()
+    """Fields that belong to the slot rather than to the operator in it.
+
+    They stay when another operator is put into the slot, so that a study which
+    swaps one operator swaps nothing else.
+    """
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        if "name" not in cls.__dict__:
+            cls.name = kebab(cls.__name__)
+
+    def __post_init__(self) -> None:
+        for parameter in parameters(type(self)):
+            value = getattr(self, parameter.name)
+            checked = parameter.check(value, self.name)
+            if checked is not value:
+                object.__setattr__(self, parameter.name, checked)
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    """One field of a component, as its class declares it."""
+
+    name: str
+    hint: Any
+    """The field's type, with its range (``Annotated``)."""
+    default: Any
+    """The default, or ``dataclasses.MISSING``."""
+
+    @property
+    def required(self) -> bool:
+        """Whether the component cannot be built without it."""
+        return self.default is dataclasses.MISSING
+
+    @property
+    def optional(self) -> bool:
+        """Whether ``None`` is allowed."""
+        return type(None) in _alternatives(self.hint)
+
+    @property
+    def slot(self) -> type[Component] | None:
+        """The kind that the field takes, if it takes one component."""
+        return next((h for h in _alternatives(self.hint) if _is_kind(h)), None)
+
+    @property
+    def slots(self) -> type[Component] | None:
+        """The kind that the field takes, if it takes a list of components."""
+        if typing.get_origin(self.hint) is tuple:
+            inner = typing.get_args(self.hint)
+            if len(inner) == 2 and inner[1] is Ellipsis and _is_kind(inner[0]):
+                return typing.cast("type[Component]", inner[0])
+        return None
+
+    @property
+    def allowed(self) -> str:
+        """The values allowed, in words."""
+        return describe(self.hint)
+
+    def check(self, value: Any, owner: str) -> Any:
+        """Return the value, converted where that loses nothing.
+
+        Raises
+        ------
+        ConfigError
+            If the value's type or range is not what the field declares.
+        """
+        if kind := self.slot or self.slots:
+            many = self.slots is not None
+            if many and isinstance(value, list):
+                value = tuple(value)
+            found = (value if isinstance(value, tuple) else (value,)) if many else (value,)
+            if not (value is None and self.optional) and not all(isinstance(v, kind) for v in found):
+                raise ConfigError(f"{owner}: {self.name} takes {self.allowed}; got {value!r}")
+            return value
+        if hasattr(self.hint, "__checked__"):
+            return self.hint.__checked__(value, owner)
+        if isinstance(value, np.generic):
+            value = value.item()
+        try:
+            checked = msgspec.convert(value, self.hint, strict=True)
+        except (msgspec.ValidationError, TypeError) as error:
+            raise ConfigError(f"{owner}: {self.name} is {self.allowed}; got {value!r}") from error
+        if isinstance(checked, float) and math.isnan(checked):
+            raise ConfigError(f"{owner}: {self.name} is {self.allowed}; got {value!r}")
+        return checked
+
+
+@cache
+def parameters(component: type[Component]) -> tuple[Parameter, ...]:
+    """Return the parameters of a component class, in the order of its fields."""
+    hints = typing.get_type_hints(component, include_extras=True)
+    found = []
+    for field in dataclasses.fields(component):  # type: ignore[arg-type]
+        default = field.default
+        if field.default_factory is not dataclasses.MISSING:
+            default = field.default_factory()
+        found.append(Parameter(field.name, hints[field.name], default))
+    return tuple(found)
+
+
+def members(component: Component) -> Iterator[tuple[str, Component]]:
+    """Yield the components in the slots of a component, with the slot's name."""
+    for parameter in parameters(type(component)):
+        value = getattr(component, parameter.name)
+        for one in value if isinstance(value, tuple) else (value,):
+            if isinstance(one, Component):
+                yield parameter.name, one
+
+
+def _is_kind(hint: Any) -> bool:
+    return isinstance(hint, type) and issubclass(hint, Component)
+
+
+def _alternatives(hint: Any) -> tuple[Any, ...]:
+    if typing.get_origin(hint) in (Union, types.UnionType):
+        return typing.get_args(hint)
+    return (hint,)
+
+
+_WORDS = {float: "a number", int: "an integer", bool: "true or false", str: "a text", type(None): "none"}
+
+
+def describe(hint: Any) -> str:
+    """Say in words which values a type allows."""
+    many = _alternatives(hint)
+    if len(many) > 1:
+        return " or ".join(describe(one) for one in many)
+    origin, inner = typing.get_origin(hint), typing.get_args(hint)
+    if origin is Annotated:
+        limits = next((m for m in inner[1:] if isinstance(m, msgspec.Meta)), msgspec.Meta())
+        words = describe(inner[0])
+        low, high = (limits.ge, limits.gt), (limits.le, limits.lt)
+        if any(v is not None for v in (*low, *high)):
+            left = f"[{limits.ge:g}" if limits.ge is not None else f"({limits.gt if limits.gt is not None else '-inf'}"
+            right = f"{limits.le:g}]" if limits.le is not None else f"{limits.lt if limits.lt is not None else 'inf'})"
+            words += f" in {left}, {right}"
+        return words
+    if origin is Literal:
+        return "one of " + ", ".join(repr(v) for v in inner)
+    if origin is tuple:
+        of = [i for i in inner if i is not Ellipsis]
+        return "a list of " + (describe(of[0]) if len(set(of)) == 1 else ", ".join(map(describe, of)))
+    if _is_kind(hint):
+        return f"a {hint.kind}"
+    if origin is not None and isinstance(origin, type) and issubclass(origin, Mapping):
+        return "a table"
+    return _WORDS.get(hint, getattr(hint, "__name__", str(hint)))

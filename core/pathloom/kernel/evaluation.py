@@ -1,0 +1,127 @@
+"""Objectives, and how a planner makes one fitness of several of them."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathloom.errors import ConfigError, PluginError
+from pathloom.kernel.component import Component
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Objective(Component, ABC):
+    """A quantity to be minimised."""
+
+    kind: ClassVar[str] = "objective"
+
+    @abstractmethod
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        """Return one value for each of the n rows, (n,); ``inf`` for an infeasible individual."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitness(Component, ABC):
+    """One number to be maximised, made of the objectives' values."""
+
+    kind: ClassVar[str] = "fitness"
+
+    @abstractmethod
+    def combine(self, values: Floats, weights: Floats) -> Floats:
+        """Return the fitness (n,) of values (n, m) under weights (m,)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Weighting(Component, ABC):
+    """A rule that gives the weights of the objectives, in place of plain numbers."""
+
+    kind: ClassVar[str] = "weighting"
+
+    @abstractmethod
+    def weights(self, count: int) -> Floats:
+        """Return the weights (count,) of the objectives in their order."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReciprocalOfSum(Fitness):
+    """F = 1 / sum of w_k t_k; ``inf`` where the sum is zero."""
+
+    def combine(self, values: Floats, weights: Floats) -> Floats:
+        with np.errstate(divide="ignore"):
+            return np.asarray(1.0 / (values @ weights))
+
+
+@dataclass(frozen=True)
+class Term:
+    """One objective under the label that a config gives it, with its weight."""
+
+    label: str
+    objective: Objective
+    weight: float = 1.0
+
+
+class Terms(tuple[Term, ...]):
+    """The objectives of a planner, in order; labels are distinct."""
+
+    __slots__ = ()
+
+    def __new__(cls, terms: Iterable[Term] | Mapping[str, Objective | tuple[Objective, float]] = ()) -> "Terms":
+        """Make the terms from a mapping of labels to objectives, or to pairs with a weight."""
+        if isinstance(terms, Mapping):
+            pairs = ((k, v if isinstance(v, tuple) else (v, 1.0)) for k, v in terms.items())
+            terms = [Term(label, objective, float(weight)) for label, (objective, weight) in pairs]
+        return super().__new__(cls, terms)
+
+    @classmethod
+    def __checked__(cls, value: Any, owner: str) -> "Terms":
+        terms = value if isinstance(value, Terms) else cls(value)
+        if not terms:
+            raise ConfigError(f"{owner}: objectives is a table with at least one term; got none")
+        for term in terms:
+            if not np.isfinite(term.weight) or term.weight < 0:
+                raise ConfigError(f"{owner}: objectives.{term.label}: weight is a number in [0, inf); got {term.weight!r}")
+        return terms
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels, in order."""
+        return tuple(term.label for term in self)
+
+    @property
+    def weights(self) -> Floats:
+        """The weights (m,), in order."""
+        return np.array([term.weight for term in self])
+
+    def objectives(self) -> Iterator[Objective]:
+        """Yield the objectives in order."""
+        return (term.objective for term in self)
+
+
+def measure(objectives: Sequence[Objective], population: Population, problem: Problem) -> Floats:
+    """Return the values (n, m) of all objectives.
+
+    Raises
+    ------
+    PluginError
+        If an objective returns another shape than (n,), or NaN.
+    """
+    values = np.empty((len(population), len(objectives)))
+    for column, objective in enumerate(objectives):
+        found = np.asarray(objective.measure(population, problem))
+        if found.shape != (len(population),):
+            raise PluginError(
+                f"objective {objective.name!r}: wanted shape ({len(population)},), one value for each row; got {found.shape}"
+            )
+        values[:, column] = found
+    if np.isnan(values).any():
+        row, column = (int(i) for i in np.argwhere(np.isnan(values))[0])
+        decoded = problem.representation.decode(population[row])
+        raise PluginError(f"objective {objectives[column].name!r}: returned NaN for {decoded!r}".replace("\n", " "))
+    return values

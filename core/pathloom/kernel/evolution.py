@@ -1,0 +1,220 @@
+"""Evolution: the generic evolutionary planner, a set of slots and the order in which they act.
+
+    sampling → evaluation → [ selection → pairing → crossover → mutation → repair
+             → evaluation → survival → migration ] until termination → refinement
+
+A paper's planner is this one with its slots filled. New control flow is a
+component of kind *control* or *migration*, never a branch in this loop.
+"""
+
+import time
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathloom.errors import ConfigError
+from pathloom.kernel.component import Component, Count, members
+from pathloom.kernel.counting import count, counting, total
+from pathloom.kernel.evaluation import Fitness, Floats, ReciprocalOfSum, Terms, Weighting, measure
+from pathloom.kernel.operators import (
+    Crossover,
+    Migration,
+    Mutation,
+    Pairing,
+    Repair,
+    Sampling,
+    Selection,
+    Survival,
+)
+from pathloom.kernel.planner import Outcome, Planner
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+from pathloom.kernel.selection import RandomPairs, Roulette
+from pathloom.kernel.state import Deme, Individual, State, generator
+from pathloom.kernel.survival import Replacement
+
+
+@dataclass(frozen=True, kw_only=True)
+class Control(Component, ABC):
+    """How one population becomes its next generation out of the planner's operators."""
+
+    kind: ClassVar[str] = "control"
+
+    @abstractmethod
+    def advance(
+        self, planner: "Evolution", deme: Deme, problem: Problem, progress: float, rng: np.random.Generator
+    ) -> Deme:
+        """Return the next generation of a population."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Generational(Control):
+    """Select, vary, evaluate, survive: once a generation."""
+
+    def advance(
+        self, planner: "Evolution", deme: Deme, problem: Problem, progress: float, rng: np.random.Generator
+    ) -> Deme:
+        parents = planner.selection.select(deme.fitness, len(deme), rng)
+        children = planner.vary(deme.population[parents], deme.fitness[parents], problem, progress, rng)
+        return planner.survival.survive(deme, planner.evaluate(children, problem), problem, rng)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evolution(Planner):
+    """The generic evolutionary planner."""
+
+    name: ClassVar[str] = "evolution"
+
+    population: Count = 100
+    """Number of individuals in each population."""
+    sampling: Sampling
+    """Makes the first population."""
+    objectives: Terms
+    """What is minimised, with weights."""
+    weighting: Weighting | None = None
+    """Rule for the weights, in place of the numbers beside the objectives."""
+    fitness: Fitness = ReciprocalOfSum()
+    """Makes one number of the objectives' values."""
+    selection: Selection = Roulette()
+    """Chooses the parents."""
+    pairing: Pairing = RandomPairs()
+    """Puts them in pairs."""
+    crossover: Crossover | None = None
+    """Mixes the pairs."""
+    mutation: Mutation | None = None
+    """Changes single individuals."""
+    repair: Repair | None = None
+    """Mends or improves every individual of every generation."""
+    survival: Survival = Replacement()
+    """Decides who makes up the next generation."""
+    control: Control = Generational()
+    """The order of the operators within a generation."""
+    migration: Migration | None = None
+    """Exchange between several populations."""
+    refinement: Repair | None = None
+    """Improves the best individual at the end."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._check_requirements()
+
+    @property
+    def terms(self) -> Terms:
+        return self.objectives
+
+    @property
+    def weights(self) -> Floats:
+        """The weights (m,) of the objectives."""
+        return self.objectives.weights if self.weighting is None else self.weighting.weights(len(self.objectives))
+
+    def start(self, problem: Problem, rng: np.random.Generator) -> State:
+        self._check_representation(problem)
+        began = time.perf_counter()
+        with counting() as counts:
+            demes = []
+            for _ in range(self.migration.demes if self.migration else 1):
+                population = self.sampling.sample(problem, self.population, rng)
+                demes.append(self.evaluate(population, problem))
+        return self._reached(State(problem, rng.bit_generator.state), tuple(demes), 0, rng, counts, began)
+
+    def step(self, state: State) -> State:
+        began = time.perf_counter()
+        rng = generator(state.random)
+        generation = state.generation + 1
+        progress = self.progress(state)
+        with counting() as counts:
+            demes = tuple(self.control.advance(self, d, state.problem, progress, rng) for d in state.demes)
+            if self.migration is not None:
+                demes = self.migration.exchange(demes, generation, rng)
+        return self._reached(state, demes, generation, rng, counts, began)
+
+    def done(self, state: State) -> bool:
+        return any(len(deme) == 0 for deme in state.demes) or super().done(state)
+
+    def result(self, state: State) -> Outcome:
+        best = state.best
+        if best is None:
+            failed = state.counts.get("samples failed", 0)
+            return Outcome(None, reason=f"{self.sampling.name!r} found no first individual in {failed} tries")
+        row = best.row
+        if self.refinement is not None:
+            row = self.refinement.apply(row[np.newaxis], state.problem, generator(state.random))[0]
+        return Outcome(row, best)
+
+    def vary(
+        self, population: Population, fitness: Floats, problem: Problem, progress: float, rng: np.random.Generator
+    ) -> Population:
+        """Return the offspring of selected parents; ``fitness`` (n,) is the parents'."""
+        if self.crossover is not None:
+            pairs = self.pairing.pair(fitness, rng)
+            rates = self.crossover.rates(fitness, progress)
+            first, second = pairs[:, 0], pairs[:, 1]
+            fitter = np.where(fitness[first] >= fitness[second], first, second)
+            crossed = pairs[rng.random(len(pairs)) < rates[fitter]]
+            population = self.crossover.cross(population, crossed, problem, rng)
+        if self.mutation is not None:
+            # A child is mutated with the rate of the parent whose row it took: its own fitness is not known yet.
+            chosen = np.flatnonzero(rng.random(len(population)) < self.mutation.rates(fitness, progress))
+            population = self.mutation.apply(population, chosen, problem, rng)
+        if self.repair is not None:
+            population = self.repair.apply(population, problem, rng)
+        return population
+
+    def evaluate(self, population: Population, problem: Problem) -> Deme:
+        """Return the population with its values and fitness, and count the evaluations."""
+        values = measure([term.objective for term in self.objectives], population, problem)
+        count("evaluations", len(population))
+        return Deme(population, values, self.fitness.combine(values, self.weights))
+
+    def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
+        deme = self.evaluate(row[np.newaxis], problem)
+        return dict(zip(self.objectives.labels, deme.values[0].tolist(), strict=True)), float(deme.fitness[0])
+
+    def _reached(
+        self, before: State, demes: tuple[Deme, ...], generation: int, rng: np.random.Generator,
+        counts: dict[str, int], began: float,
+    ) -> State:  # fmt: skip
+        evaluations = before.evaluations + counts.pop("evaluations", 0)
+        best, main = before.best, demes[0]
+        for deme in demes:
+            if len(deme) and (best is None or deme.fitness[deme.best()] > best.fitness):
+                row = deme.best()
+                best = Individual(deme.population[row], deme.values[row], float(deme.fitness[row]), generation)
+        history = before.history
+        if best is not None and len(main):
+            diversity = before.problem.representation.diversity(main.population)
+            top, mean = float(main.fitness.max()), float(main.fitness.mean())
+            history = history.extended(evaluations, best.fitness, top, mean, diversity)
+        return replace(
+            before,
+            random=rng.bit_generator.state,
+            generation=generation,
+            evaluations=evaluations,
+            demes=demes,
+            best=best,
+            history=history,
+            counts=total(before.counts, counts) if counts else before.counts,
+            seconds=before.seconds + time.perf_counter() - began,
+        )
+
+    def _check_requirements(self) -> None:
+        """Refuse operators that need what those before them in the loop do not keep."""
+        in_the_loop = [c for c in (self.crossover, self.mutation, self.repair) if c is not None]
+        kept = self.sampling.gives - frozenset().union(*(c.breaks for c in in_the_loop))
+        for component in in_the_loop:
+            if missing := component.needs - kept:
+                lost = [c.name for c in in_the_loop if c.breaks & missing] or [self.sampling.name]
+                raise ConfigError(
+                    f"{component.kind} {component.name!r} needs {', '.join(sorted(missing))} individuals, "
+                    f"which {', '.join(map(repr, lost))} does not leave"
+                )
+
+    def _check_representation(self, problem: Problem) -> None:
+        given = problem.representation.name
+        parts = [part for _, part in members(self)] + list(self.objectives.objectives())
+        for part in parts:
+            if part.works_on and part.works_on != given:
+                raise ConfigError(f"{part.kind} {part.name!r} works on {part.works_on!r}; the problem has {given!r}")

@@ -1,0 +1,96 @@
+"""Drivers: run a planner on a problem, all of it or state by state."""
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from pathloom.errors import ConfigError
+from pathloom.kernel.planner import Outcome, Planner
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.state import State
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: its last state, its answer and what it took."""
+
+    state: State | None
+    outcome: Outcome
+    phases: dict[str, float] = field(default_factory=dict)
+    """Seconds spent in ``sampling``, ``evolution`` and ``refinement``."""
+    interrupted: bool = False
+
+
+def check_seed(seed: object) -> int:
+    """Return the seed, a whole number that is at least zero.
+
+    Raises
+    ------
+    ConfigError
+        If it is anything else.
+    """
+    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or seed < 0:
+        raise ConfigError(f"seed is an integer in [0, inf); got {seed!r}")
+    return int(seed)
+
+
+def first_generator(seed: int) -> np.random.Generator:
+    """Return the generator with which a run of this seed begins."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(check_seed(seed))))
+
+
+def iterate(problem: Problem, planner: Planner, seed: int = 0) -> Iterator[State]:
+    """Yield the first state and then one a generation, until the planner is done.
+
+    Every state can be kept, pickled, and stepped on from again.
+    """
+    state = planner.start(problem, first_generator(seed))
+    while True:
+        for observer in planner.observers:
+            observer.observe(state)
+        yield state
+        if planner.done(state):
+            return
+        state = planner.step(state)
+
+
+def run(
+    problem: Problem,
+    planner: Planner,
+    seed: int = 0,
+    *,
+    time_limit: float | None = None,
+    watch: Callable[[State], None] | None = None,
+) -> Run:
+    """Run a planner to its end, or until the time is over or somebody interrupts.
+
+    Parameters
+    ----------
+    time_limit
+        Seconds after which the best found so far is the answer. What a planner
+        does within one step is not cut short.
+    watch
+        Called with every state.
+    """
+    began = time.perf_counter()
+    phases: dict[str, float] = {}
+    state: State | None = None
+    interrupted = False
+    try:
+        for state in iterate(problem, planner, seed):
+            if watch is not None:
+                watch(state)
+            now = time.perf_counter() - began
+            phases.setdefault("sampling", now)
+            if time_limit is not None and now >= time_limit:
+                break
+    except KeyboardInterrupt:
+        interrupted = True
+    searched = time.perf_counter() - began
+    phases.setdefault("sampling", searched)
+    phases["evolution"] = searched - phases["sampling"]
+    outcome = Outcome(None, reason="interrupted before the first individual") if state is None else planner.result(state)
+    phases["refinement"] = time.perf_counter() - began - searched
+    return Run(state, outcome, phases, interrupted)

@@ -1,0 +1,63 @@
+"""Selection and pairing that no paper owns."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from pathloom.kernel.component import Count
+from pathloom.kernel.evaluation import Floats
+from pathloom.kernel.operators import Indices, Pairing, Selection
+
+
+@dataclass(frozen=True, kw_only=True)
+class Roulette(Selection):
+    """Choose with a probability in proportion to fitness.
+
+    Infinite fitness takes the whole wheel; where fitness is negative the wheel
+    starts at the least one; where all are equal every one has the same chance.
+    """
+
+    source: ClassVar[str] = "Holland 1975"
+
+    def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
+        share = fitness
+        if not np.isfinite(share.sum()):
+            share = np.isposinf(fitness).astype(np.float64)
+        elif share.min() < 0:
+            share = share - share.min()
+        wheel = np.cumsum(share)
+        if wheel[-1] <= 0:
+            return rng.integers(len(fitness), size=n)
+        spun = np.searchsorted(wheel, rng.random(n) * wheel[-1], side="right")
+        return np.minimum(spun, len(fitness) - 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tournament(Selection):
+    """Choose the fittest of a few drawn at random."""
+
+    source: ClassVar[str] = "Goldberg and Deb 1991"
+    size: Count = 2
+    """How many are drawn each time."""
+
+    def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
+        drawn = rng.integers(len(fitness), size=(n, self.size))
+        return drawn[np.arange(n), np.argmax(fitness[drawn], axis=1)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RandomPairs(Pairing):
+    """Shuffle, and let neighbours be pairs; of an odd number one stays alone."""
+
+    def pair(self, fitness: Floats, rng: np.random.Generator) -> Indices:
+        order = rng.permutation(len(fitness))
+        return order[: len(order) // 2 * 2].reshape(-1, 2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConsecutivePairs(Pairing):
+    """Let the first be with the second, the third with the fourth, in the order of selection."""
+
+    def pair(self, fitness: Floats, rng: np.random.Generator) -> Indices:
+        return np.arange(len(fitness) // 2 * 2).reshape(-1, 2)

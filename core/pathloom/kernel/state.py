@@ -1,0 +1,110 @@
+"""State: everything that a run has reached, as plain data.
+
+A state can be inspected, drawn, pickled and taken up again: the same state
+always leads to the same next one.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathloom.kernel.evaluation import Floats
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+
+
+@dataclass(frozen=True)
+class Deme:
+    """One population with its values (n, m), minimised, and its fitness (n,), maximised."""
+
+    population: Population
+    values: Floats
+    fitness: Floats
+
+    def __len__(self) -> int:
+        """The number of individuals."""
+        return len(self.fitness)
+
+    def best(self) -> int:
+        """Return the row of the fittest individual; the first of several."""
+        return int(np.argmax(self.fitness))
+
+
+@dataclass(frozen=True)
+class Individual:
+    """One row with its values (m,), its fitness, and the generation that found it."""
+
+    row: NDArray[Any]
+    values: Floats
+    fitness: float
+    generation: int
+
+
+@dataclass(frozen=True)
+class History:
+    """What each generation was like, the first population included."""
+
+    evaluations: tuple[int, ...] = ()
+    """Evaluations spent so far."""
+    best: tuple[float, ...] = ()
+    """Best fitness found so far."""
+    generation_best: tuple[float, ...] = ()
+    """Best fitness within the generation."""
+    mean: tuple[float, ...] = ()
+    """Mean fitness of the generation."""
+    diversity: tuple[float, ...] = ()
+    """Share of distinct individuals."""
+
+    def extended(self, evaluations: int, best: float, generation_best: float, mean: float, diversity: float) -> "History":
+        """Return the history with one more generation."""
+        return replace(
+            self,
+            evaluations=(*self.evaluations, evaluations),
+            best=(*self.best, best),
+            generation_best=(*self.generation_best, generation_best),
+            mean=(*self.mean, mean),
+            diversity=(*self.diversity, diversity),
+        )
+
+
+@dataclass(frozen=True)
+class State:
+    """Where a run stands after a generation.
+
+    Planners that are not evolutionary subclass it with what they need.
+    """
+
+    problem: Problem
+    random: Mapping[str, Any]
+    """State of the random generator with which the next step begins."""
+    generation: int = 0
+    evaluations: int = 0
+    demes: tuple[Deme, ...] = ()
+    """The populations; the first one is the main one."""
+    best: Individual | None = None
+    """Best individual found so far, kept even where the population loses it."""
+    history: History = field(default_factory=History)
+    counts: Mapping[str, int] = field(default_factory=dict)
+    """Failures and fallbacks so far."""
+    seconds: float = 0.0
+    """Time spent so far."""
+
+    @property
+    def population(self) -> Population:
+        """The main population (n, width)."""
+        return self.demes[0].population
+
+    @property
+    def fitness(self) -> Floats:
+        """The fitness (n,) of the main population."""
+        return self.demes[0].fitness
+
+
+def generator(random: Mapping[str, Any]) -> np.random.Generator:
+    """Return a generator that goes on where the recorded one stood."""
+    rng = np.random.Generator(np.random.PCG64(0))
+    rng.bit_generator.state = random
+    return rng

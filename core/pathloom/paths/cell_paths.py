@@ -1,0 +1,53 @@
+"""Cell paths: the representation of paths as sequences of cells."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathloom import compiled
+from pathloom.kernel.component import Count
+from pathloom.kernel.representation import Population, Representation
+
+Path: TypeAlias = NDArray[np.int64]
+"""(k, 2), rows and columns of k cells from start to goal."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellPaths(Representation):
+    """Paths as rows of flat cell ids, int32 (n, width), padded with −1.
+
+    Consecutive cells are joined by straight segments between their centres.
+    """
+
+    name: ClassVar[str] = "cells"
+
+    rows: Count
+    cols: Count
+
+    def decode(self, row: NDArray[Any]) -> Path:
+        """Return the cells (k, 2) of one row."""
+        ids = row[row >= 0].astype(np.int64)
+        return np.stack((ids // self.cols, ids % self.cols), axis=1)
+
+    def encode(self, paths: Sequence[NDArray[np.integer[Any]]]) -> Population:
+        """Return the population of some paths, each (k, 2)."""
+        width = max((len(p) for p in paths), default=1)
+        population = np.full((len(paths), width), -1, np.int32)
+        for row, path in zip(population, paths, strict=True):
+            row[: len(path)] = path[:, 0] * self.cols + path[:, 1]
+        return population
+
+    def stack(self, first: Population, second: Population) -> Population:
+        width = max(first.shape[1], second.shape[1])
+        both = np.full((len(first) + len(second), width), -1, np.int32)
+        both[: len(first), : first.shape[1]] = first
+        both[len(first) :, : second.shape[1]] = second
+        return both
+
+    def diversity(self, population: Population) -> float:
+        if len(population) == 0:
+            return 0.0
+        return int(compiled.cells.distinct(population)) / len(population)

@@ -1,0 +1,82 @@
+"""Median insertion, the way in which several papers make a path out of a few cells."""
+
+from typing import Literal
+
+import numpy as np
+
+from pathloom import compiled
+from pathloom.kernel.counting import count
+from pathloom.kernel.operators import Indices
+from pathloom.kernel.representation import Population
+from pathloom.paths.problem import PathProblem
+
+
+def sample_by_insertion(
+    problem: PathProblem,
+    n: int,
+    rng: np.random.Generator,
+    *,
+    tries: int,
+    insertions: int,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Draw n different paths start – random free cell – goal, with gaps closed by median insertion.
+
+    Parameters
+    ----------
+    tries
+        Failures in a row after which no other path is looked for. If at least
+        one was found by then, those found are repeated to make up n; such
+        repeats, and the failures, are counted.
+    insertions
+        Most insertions in one gap; 0 stands for 4 · (height + width).
+    reach
+        8 or 4 neighbours among which a midpoint in an obstacle gives way.
+    guarded
+        Never insert an end of the gap, and prefer neighbours that shrink it.
+    loops
+        Keep whatever lies between two visits of one cell.
+    """
+    it = problem.context
+    sign_r, sign_c = it.signs
+    if it.start == it.goal:
+        return np.full((n, 1), it.start, np.int32)
+    found, failed, again = compiled.cells.sample_by_insertion(
+        n, tries, it.start, it.goal, it.reachable_cells, it.blocked, it.moves, it.rows, it.cols, sign_r, sign_c,
+        reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("samples failed", failed)
+    count("samples drawn again", again)
+    if 0 < len(found) < n:
+        count("samples repeated", n - len(found))
+        return np.ascontiguousarray(found[np.arange(n) % len(found)])
+    return found
+
+
+def mutate_neighbour(
+    population: Population,
+    chosen: Indices,
+    problem: PathProblem,
+    rng: np.random.Generator,
+    *,
+    insertions: int,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Move one interior cell of each chosen path to a free neighbour and join it up by median insertion.
+
+    The parameters are those of `sample_by_insertion`, but −1 insertions stand
+    for 4 · (height + width), and with 0 the new cell must fit as it is. A path
+    that cannot be joined up stays, and is counted.
+    """
+    it = problem.context
+    sign_r, sign_c = it.signs
+    changed, failed = compiled.cells.mutate_neighbour(
+        population, chosen, it.blocked, it.moves, it.rows, it.cols, sign_r, sign_c, reach,
+        insertions if insertions >= 0 else 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("mutation failed", failed)
+    return changed  # type: ignore[no-any-return]

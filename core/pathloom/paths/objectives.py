@@ -1,0 +1,68 @@
+"""The kernel's own objectives on paths. All are minimised."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from pathloom import compiled
+from pathloom.kernel.evaluation import Floats, Objective
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+from pathloom.paths.pathwise import path_problem
+
+
+@dataclass(frozen=True, kw_only=True)
+class Length(Objective):
+    """Euclidean length, in cells."""
+
+    works_on: ClassVar[str] = "cells"
+
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        return np.asarray(compiled.cells.lengths(population, path_problem(problem).context.cols))
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnsafeCells(Objective):
+    """Number of cells with an obstacle among their 8 neighbours whose inside the path crosses, ends included."""
+
+    works_on: ClassVar[str] = "cells"
+
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        it = path_problem(problem).context
+        return np.asarray(compiled.segments.flagged_cells(population, it.unsafe, it.cols))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Turns(Objective):
+    """Number of changes of direction, compared as exact integer directions."""
+
+    works_on: ClassVar[str] = "cells"
+
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        return np.asarray(compiled.cells.turns(population, path_problem(problem).context.cols)[:, 0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class TurnAngle(Objective):
+    """Sum of all changes of direction, in radians; going straight back is π."""
+
+    works_on: ClassVar[str] = "cells"
+
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        return np.asarray(compiled.cells.turns(population, path_problem(problem).context.cols)[:, 1])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Clearance(Objective):
+    """Minus the least distance from the path to an obstacle cell's border, in cells.
+
+    On a map without obstacles it is minus the length of the map's diagonal.
+    """
+
+    works_on: ClassVar[str] = "cells"
+
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        it = path_problem(problem).context
+        found = compiled.segments.clearances(population, it.blocked, it.distance, it.rows, it.cols)
+        return -np.minimum(found, np.hypot(it.rows, it.cols))

@@ -1,0 +1,166 @@
+"""Planning: compose, run, verify, and put the result together."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from pathloom.config import DEFAULT_PLANNER, frozen
+from pathloom.errors import ConfigError, ProblemError
+from pathloom.exact import any_angle_path, contacts, octile_path, validate
+from pathloom.kernel import compose as composition
+from pathloom.kernel.compose import compose, freeze
+from pathloom.kernel.planner import Planner
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.registry import default_registry
+from pathloom.kernel.run import check_seed, run
+from pathloom.kernel.run import iterate as iterate_planner
+from pathloom.kernel.state import State
+from pathloom.paths.cell_paths import Path
+from pathloom.paths.metrics import metrics
+from pathloom.paths.problem import PathProblem
+from pathloom.result import Result, Status, describe_problem, versions
+
+__all__ = ["compose", "freeze", "iterate", "plan"]
+
+
+def plan(
+    problem: PathProblem,
+    planner: str | Mapping[str, Any] | Planner = DEFAULT_PLANNER,
+    *,
+    seed: int = 0,
+    time_limit: float | None = None,
+    optimum: bool = False,
+    map_name: str = "",
+    watch: Callable[[State], None] | None = None,
+) -> Result:
+    """Plan one path, and verify it.
+
+    Parameters
+    ----------
+    problem
+        Map, start, goal, radius and corner policy.
+    planner
+        A planner's name, a table as in a config, or a planner.
+    seed
+        Integer, at least 0. The same seed gives the same path, metrics and history.
+    time_limit
+        Seconds after which the best path so far is the answer.
+    optimum
+        Also compute the exact octile and any-angle optima, and the gaps to them.
+    map_name
+        What the result calls the map; by default the name that the grid bears.
+    watch
+        Called with the state after every generation.
+
+    Returns
+    -------
+    Result
+        With status ``found``, ``unreachable`` (said before any search) or
+        ``not-found``. A path that is returned has passed the exact validator.
+
+    Raises
+    ------
+    ConfigError
+        If the planner, one of its parts or the seed is not usable.
+    """
+    seed = check_seed(seed)
+    if time_limit is not None and not time_limit > 0:
+        raise ConfigError(f"time limit: found {time_limit!r}, allowed seconds above 0")
+    composed = composition.compose(planner)
+    name = map_name or problem.grid.name or "unnamed"
+    facts: dict[str, Any] = {
+        "planner": default_registry().name_of(type(composed)).rpartition("/")[2],
+        "seed": seed,
+        "problem": describe_problem(problem, name),
+        "config": frozen(problem, name, composed, seed, time_limit),
+        "versions": versions(),
+        "path_problem": problem,
+    }
+    if not problem.reachable:
+        (r0, c0), (r1, c1) = problem.ends
+        reason = f"the goal {r1},{c1} cannot be reached from {r0},{c0} under the corner policy {problem.corners!r}"
+        return Result(status="unreachable", reason=reason, **facts)
+
+    finished = run(problem, composed, seed, time_limit=time_limit, watch=watch)
+    state, outcome = finished.state, finished.outcome
+    path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
+    status: Status = "found" if path is not None else "not-found"
+    facts["budget"] = {
+        "generations": state.generation if state else 0,
+        "evaluations": state.evaluations if state else 0,
+        "seconds": sum(finished.phases.values()),
+        "phases": finished.phases,
+        "failures": dict(sorted(state.counts.items())) if state else {},
+    }
+    if state is not None:
+        facts["history"] = {k: list(v) for k, v in vars(state.history).items()}
+    if path is not None:
+        met = contacts(path, problem)
+        facts["metrics"] = {**metrics(path, problem), "touches": met.touches, "squeezes": met.squeezes}
+        row = problem.representation.encode([path])[0]
+        facts["objectives"], facts["fitness"] = composed.fitness_of(row, problem)
+        if problem.grid.origin is not None:
+            facts["world"] = problem.grid.world(path)
+    if optimum:
+        length = facts["metrics"]["length"] if path is not None else None
+        facts["optimum"], facts["gap"] = _references(problem, length)
+    return Result(
+        status=status, path=path, unrefined=unrefined, reason=reason, interrupted=finished.interrupted, **facts
+    )
+
+
+def iterate(
+    problem: Problem, planner: str | Mapping[str, Any] | Planner = DEFAULT_PLANNER, *, seed: int = 0
+) -> Iterator[State]:
+    """Yield the state after the first population and after each generation, until the planner is done.
+
+    Raises
+    ------
+    ProblemError
+        If the goal of a path problem cannot be reached.
+    """
+    composed = composition.compose(planner)
+    check_seed(seed)
+    if isinstance(problem, PathProblem) and not problem.reachable:
+        raise ProblemError(f"the goal cannot be reached under the corner policy {problem.corners!r}")
+    return iterate_planner(problem, composed, seed)
+
+
+def _verified(problem: PathProblem, solution: Any, found: Any, reason: str) -> tuple[Path | None, Path | None, str]:
+    """Return the path and what it was before refinement, as far as the validator lets them pass.
+
+    A refined path that does not pass gives way to the one it was made of: the
+    deleted points are restored.
+    """
+    decode = problem.representation.decode
+    unrefined = decode(found.row) if found is not None else None
+    fault = validate(unrefined, problem) if unrefined is not None else None
+    if fault is not None:
+        unrefined = None
+    if solution is None:
+        return None, unrefined, reason
+    path = decode(solution)
+    why = validate(path, problem)
+    if why is None:
+        return path, unrefined, reason
+    if unrefined is not None:
+        return unrefined, unrefined, f"the refined path {why}; its points were restored"
+    return None, None, f"the best path of the search {why}"
+
+
+def _references(problem: PathProblem, length: float | None) -> tuple[dict[str, float | None], dict[str, float | None]]:
+    found = {"grid": octile_path(problem)[0], "any_angle": any_angle_path(problem)[0]}
+    optimum = {name: value if math.isfinite(value) else None for name, value in found.items()}
+    return optimum, {name: gap_to(length, best) for name, best in optimum.items()}
+
+
+def gap_to(length: float | None, best: float | None) -> float | None:
+    """Return length / best − 1; 0 where both are 0, ``None`` where either is unknown."""
+    if length is None or best is None:
+        return None
+    if best == 0.0:
+        return 0.0 if length == 0.0 else None
+    gap = length / best - 1.0
+    return 0.0 if abs(gap) < 8 * np.finfo(np.float64).eps else gap

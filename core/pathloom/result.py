@@ -1,0 +1,183 @@
+"""Result: what a run found, what it took, and how good it is; to and from JSON."""
+
+import json
+import math
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathloom.errors import PathloomError
+from pathloom.paths.problem import PathProblem
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SCHEMA = "pathloom.plan/1"
+Status = Literal["found", "unreachable", "not-found"]
+
+
+@dataclass(frozen=True)
+class Result:
+    """The outcome of planning one path. Cells are (row, column), lengths are in cells."""
+
+    status: Status
+    planner: str
+    """Name of the planner."""
+    seed: int
+    problem: Mapping[str, Any]
+    """Map, its hash and size, start, goal, corner policy and radius."""
+    path: NDArray[np.int64] | None = None
+    """(k, 2), cells from start to goal; ``None`` where none was found."""
+    unrefined: NDArray[np.int64] | None = None
+    """(k, 2), the path before the planner's refinement, which was checked as well."""
+    world: NDArray[np.float64] | None = None
+    """(k, 2), x and y in metres, where the map has a place in the world."""
+    metrics: Mapping[str, Any] = field(default_factory=dict)
+    objectives: Mapping[str, float] = field(default_factory=dict)
+    """Values of the planner's objectives, by label."""
+    fitness: float | None = None
+    optimum: Mapping[str, float | None] | None = None
+    """``grid``, the octile optimum, and ``any_angle``; ``None`` inside where it was out of reach."""
+    gap: Mapping[str, float | None] | None = None
+    """length / optimum − 1."""
+    budget: Mapping[str, Any] = field(default_factory=dict)
+    """Generations, evaluations, seconds, seconds by phase, and counted failures."""
+    history: Mapping[str, Any] = field(default_factory=dict)
+    """For each generation: evaluations so far, best fitness so far, the generation's own, mean, diversity."""
+    config: Mapping[str, Any] = field(default_factory=dict)
+    """The complete config that repeats the run."""
+    versions: Mapping[str, str] = field(default_factory=dict)
+    reason: str = ""
+    """Why there is no path."""
+    interrupted: bool = False
+
+    path_problem: PathProblem | None = field(default=None, repr=False, compare=False)
+    """The problem itself; not in the JSON."""
+
+    @property
+    def found(self) -> bool:
+        """Whether there is a path."""
+        return self.status == "found"
+
+    @cached_property
+    def length(self) -> float:
+        """Length in cells; inf without a path."""
+        return float(self.metrics.get("length", math.inf))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON document as Python values."""
+        document: dict[str, Any] = {"schema": SCHEMA}
+        for item in fields(self):
+            if item.name != "path_problem":
+                document[item.name] = _plain(getattr(self, item.name))
+        return document
+
+    def to_json(self) -> str:
+        """Return the result as a JSON document, ``pathloom.plan/1``."""
+        return json.dumps(self.to_dict(), allow_nan=False, ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> "Result":
+        """Return the result that a JSON document describes; it knows the map by name only.
+
+        Raises
+        ------
+        PathloomError
+            If it is no document of this kind.
+        """
+        try:
+            document = json.loads(text)
+            if document.pop("schema") != SCHEMA:
+                raise KeyError("schema")
+            known = {f.name for f in fields(cls)} - {"path_problem"}
+            values = {k: v for k, v in document.items() if k in known}
+            for name, dtype in (("path", np.int64), ("unrefined", np.int64), ("world", np.float64)):
+                if values.get(name) is not None:
+                    values[name] = np.array(values[name], dtype).reshape(-1, 2)
+            return cls(**values)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise PathloomError(f"no document of schema {SCHEMA!r}: {type(error).__name__}: {error}") from error
+
+    def plot(self, file: Any = None, *, dark: bool = False) -> "Figure":
+        """Draw map, path and convergence; save to ``file`` if one is given.
+
+        Raises
+        ------
+        PathloomError
+            If the result was read from JSON, which does not hold the map.
+        """
+        if self.path_problem is None:
+            raise PathloomError("this result does not hold its map: it was read from JSON")
+        from pathloom.draw import path_figure, save
+
+        problem, it = self.path_problem, self.path_problem.context
+        start, goal = problem.ends
+        figure = path_figure(
+            problem.grid.occupied,
+            closed=it.occupied if problem.radius else None,
+            start=start,
+            goal=goal,
+            path=self.path,
+            unrefined=self.unrefined,
+            history=self.history,
+            title=f"{self.planner} on {self.problem['map']}",
+            caption=self._caption(),
+            resolution=problem.grid.resolution if problem.grid.origin is not None else None,
+            dark=dark,
+        )
+        if file is not None:
+            save(figure, file)
+        return figure
+
+    def _caption(self) -> str:
+        if not self.found:
+            return self.reason
+        parts = [f"length {self.length:.4f}", f"{self.metrics['turns']} turns", f"seed {self.seed}"]
+        gap = (self.gap or {}).get("any_angle")
+        if gap is not None:
+            parts.append(f"{100 * gap:.2f} % above the any-angle optimum")
+        return ", ".join(parts)
+
+
+def describe_problem(problem: PathProblem, name: str) -> dict[str, Any]:
+    """Return what a document says of a problem."""
+    grid = problem.grid
+    start, goal = problem.ends
+    return {
+        "map": name,
+        "map_sha256": grid.sha256,
+        "height": grid.height,
+        "width": grid.width,
+        "resolution": grid.resolution,
+        "start": list(start),
+        "goal": list(goal),
+        "corners": problem.corners,
+        "radius": problem.radius,
+    }
+
+
+def versions() -> dict[str, str]:
+    """Return the versions on which a result may depend."""
+    named = {name: version(name) for name in ("pathloom", "numpy", "numba")}
+    return {"pathloom": named.pop("pathloom"), "python": platform.python_version(), **named}
+
+
+def _plain(value: Any) -> Any:
+    """Return JSON values only; what JSON cannot say (infinity) becomes null."""
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    return value
