@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
     from pathloom.exact import any_angle_path, octile_path, validate
     from pathloom.grid import OccupancyGrid, write_map
+    from pathloom.kernel.archive import Archive
     from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
     from pathloom.kernel.counting import count
     from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
@@ -46,6 +47,7 @@ _HOME = {
     "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
     "exact": ("any_angle_path", "octile_path", "validate"),
     "grid": ("OccupancyGrid", "write_map"),
+    "kernel.archive": ("Archive",),
     "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
     "kernel.counting": ("count",),
     "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),

@@ -1,5 +1,6 @@
 """The components that belong to no paper, registered through the same hook as everybody's."""
 
+from pathloom.kernel.archive import BestRefined
 from pathloom.kernel.evolution import Evolution, Generational
 from pathloom.kernel.evaluation import ReciprocalOfSum
 from pathloom.kernel.plugins import Add, hookimpl
@@ -16,7 +17,7 @@ from pathloom.paths.tree_seeding import PerturbedTrees
 def register(add: Add) -> None:
     """Add what needs no prefix."""
     for component in (
-        Evolution, Generational,
+        Evolution, Generational, BestRefined,
         PerturbedTrees,
         Length, UnsafeCells, Turns, TurnAngle, Clearance,
         ReciprocalOfSum,

@@ -10,7 +10,7 @@ import numpy as np
 
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.random import below
-from pathloom.compiled.rows import blank, copy, hash_of, length_of, unpack, widest, with_room
+from pathloom.compiled.rows import blank, copy, hash_of, length_of, row_of, unpack, widest, with_room
 
 DR = np.array([-1, -1, 0, 1, 1, 1, 0, -1], np.int64)
 DC = np.array([0, 1, 1, 1, 0, -1, -1, -1], np.int64)
@@ -57,6 +57,7 @@ def connect(a, b, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarde
     cells beside it is inserted. ``guarded``: never insert an end of the gap, and
     prefer neighbours that shrink it.
     """
+    per_row = 1.0 / cols
     top = 0
     stack[0] = b
     here = a
@@ -66,8 +67,8 @@ def connect(a, b, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarde
         if target == here:
             top -= 1
             continue
-        r0, c0 = here // cols, here % cols
-        r1, c1 = target // cols, target % cols
+        r0, r1 = row_of(here, per_row), row_of(target, per_row)
+        c0, c1 = here - r0 * cols, target - r1 * cols
         gap = max(abs(r1 - r0), abs(c1 - c0))
         if gap == 1:
             if moves[here] >> TOWARDS[3 * (r1 - r0 + 1) + c1 - c0 + 1] & 1:
@@ -303,6 +304,7 @@ def mutate_neighbour(  # type: ignore[no-untyped-def]
 @kernel("float64[::1](int32[:, ::1], int64)")
 def lengths(population, cols):  # type: ignore[no-untyped-def]
     """Return the Euclidean length of each path, in cells."""
+    per_row = 1.0 / cols
     found = np.zeros(population.shape[0])
     for k in range(population.shape[0]):
         straight = diagonal = 0  # counted, so that paths of single steps have the same length in any order
@@ -312,7 +314,8 @@ def lengths(population, cols):  # type: ignore[no-untyped-def]
             cell = population[k, i]
             if cell < 0:
                 break
-            r, c = cell // cols, cell % cols
+            r = row_of(cell, per_row)
+            c = cell - r * cols
             if i > 0:
                 squared = (r - r0) * (r - r0) + (c - c0) * (c - c0)
                 if squared == 1:
@@ -345,19 +348,23 @@ def turns(population, cols):  # type: ignore[no-untyped-def]
 
     Directions are compared as integers; going straight back is a turn of π.
     """
+    per_row = 1.0 / cols
     found = np.zeros((population.shape[0], 2))
     for k in range(population.shape[0]):
-        count = length_of(population[k])
-        dr0 = dc0 = 0
-        for i in range(1, count):
-            a, b = population[k, i - 1], population[k, i]
-            dr, dc = b // cols - a // cols, b % cols - a % cols
-            if i > 1:
+        r0 = c0 = dr0 = dc0 = 0
+        for i in range(population.shape[1]):
+            cell = population[k, i]
+            if cell < 0:
+                break
+            r = row_of(cell, per_row)
+            c = cell - r * cols
+            dr, dc = r - r0, c - c0
+            if i > 1 and (dr != dr0 or dc != dc0):
                 cross, dot = dr0 * dc - dc0 * dr, dr0 * dr + dc0 * dc
                 if cross != 0 or dot < 0:
                     found[k, 0] += 1.0
                     found[k, 1] += math.atan2(abs(cross), dot)
-            dr0, dc0 = dr, dc
+            r0, c0, dr0, dc0 = r, c, dr, dc
     return found
 
 
@@ -369,16 +376,22 @@ def quadrant_energy(population, cols, goal, sign_r, sign_c, price, by_angle):  #
     an axis counts to the better side. ``by_angle``: by the angle between the
     direction and the goal instead, up to 45°, up to 135°, beyond.
     """
+    per_row = 1.0 / cols
+    goal_r = goal // cols
+    goal_c = goal - goal_r * cols
     found = np.zeros(population.shape[0])
     for k in range(population.shape[0]):
-        count = length_of(population[k])
-        dr0 = dc0 = 0
-        for i in range(1, count):
-            a, b = population[k, i - 1], population[k, i]
-            dr, dc = b // cols - a // cols, b % cols - a % cols
-            if i > 1 and (dr0 * dc != dc0 * dr or dr0 * dr + dc0 * dc < 0):
+        r0 = c0 = dr0 = dc0 = 0
+        for i in range(population.shape[1]):
+            cell = population[k, i]
+            if cell < 0:
+                break
+            r = row_of(cell, per_row)
+            c = cell - r * cols
+            dr, dc = r - r0, c - c0
+            if i > 1 and (dr != dr0 or dc != dc0) and (dr0 * dc != dc0 * dr or dr0 * dr + dc0 * dc < 0):
                 if by_angle:
-                    to_r, to_c = goal // cols - a // cols, goal % cols - a % cols
+                    to_r, to_c = goal_r - r0, goal_c - c0
                     cross, dot = abs(dr * to_c - dc * to_r), dr * to_r + dc * to_c
                     which = 0 if dot >= cross else (1 if -dot <= cross else 2)
                 else:
@@ -390,25 +403,36 @@ def quadrant_energy(population, cols, goal, sign_r, sign_c, price, by_angle):  #
                     else:
                         which = 1
                 found[k] += price[which]
-            dr0, dc0 = dr, dc
+            r0, c0, dr0, dc0 = r, c, dr, dc
     return found
 
 
-@kernel("int64(int32[:, ::1])")
-def distinct(population):  # type: ignore[no-untyped-def]
-    """Return how many different paths there are, told apart by a 64-bit hash."""
+@part("boolean(uint64[::1], uint64)")
+def _enter(table, value):  # type: ignore[no-untyped-def]
+    """Put a hash, not 0, into an open table; say whether it was new."""
+    mask = np.uint64(table.shape[0] - 1)
+    slot = (value >> np.uint64(20)) & mask
+    while table[slot] != 0 and table[slot] != value:
+        slot = (slot + np.uint64(1)) & mask
+    new = table[slot] == 0
+    table[slot] = value
+    return new
+
+
+@kernel("int64[::1](int32[:, ::1], int32[:, ::1])")
+def newcomers(population, before):  # type: ignore[no-untyped-def]
+    """Return the index of the first of each different path that was not there before, told apart by a 64-bit hash."""
     n = population.shape[0]
     size = 4
-    while size < 2 * n:
+    while size < 2 * (n + before.shape[0]):
         size *= 2
     table = np.zeros(size, np.uint64)
+    for k in range(before.shape[0]):
+        _enter(table, hash_of(before[k], length_of(before[k])) | np.uint64(1))
+    first = np.empty(n, np.int64)
     different = 0
     for k in range(n):
-        value = hash_of(population[k], length_of(population[k])) | np.uint64(1)
-        slot = np.int64(value >> np.uint64(20)) & (size - 1)
-        while table[slot] != 0 and table[slot] != value:
-            slot = (slot + 1) & (size - 1)
-        if table[slot] == 0:
-            table[slot] = value
+        if _enter(table, hash_of(population[k], length_of(population[k])) | np.uint64(1)):
+            first[different] = k
             different += 1
-    return different
+    return first[:different].copy()

@@ -8,6 +8,12 @@ import numpy as np
 from pathloom.compiled.jit import part
 
 
+@part("int64(int64, float64)")
+def row_of(cell, per_row):  # type: ignore[no-untyped-def]
+    """Return the row of a cell, given 1 / cols: exact below 2**50 cells, and faster than a division."""
+    return np.int64((cell + 0.5) * per_row)
+
+
 @part("int64(int32[::1])")
 def length_of(row):  # type: ignore[no-untyped-def]
     """Return how many cells a padded row holds: the first −1, by bisection."""
@@ -35,7 +41,7 @@ def blank(n, width):  # type: ignore[no-untyped-def]
 def copy(to, at, of, begin, count):  # type: ignore[no-untyped-def]
     """Copy ``count`` cells from ``of[begin:]`` to ``to[at:]``."""
     for i in range(count):
-        to[at + i] = of[begin + i]
+        to[np.uint64(at + i)] = of[np.uint64(begin + i)]  # unsigned: no test for negative indices
 
 
 @part("int64(int32[:, ::1])")

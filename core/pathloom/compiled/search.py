@@ -258,7 +258,7 @@ def any_angle_path(blocked, cols, start, goal, policy, before, after, upper, wor
             far = g + math.sqrt(dr * dr + dc * dc)
             if far < distance[there] - slack and far + bound[there] <= upper + slack:
                 done += np.int64(max(abs(dr), abs(dc)))
-                if segment_free(blocked, cols, ids[here], ids[there], policy):
+                if segment_free(blocked, cols, ids[here], np.int64(dr), np.int64(dc), policy):
                     distance[there] = far
                     parent[there] = here
                     key[there] = far + bound[there]

@@ -15,14 +15,12 @@ import math
 import numpy as np
 
 from pathloom.compiled.jit import kernel, part
-from pathloom.compiled.rows import blank, copy, length_of
+from pathloom.compiled.rows import blank, copy, length_of, row_of
 
 
-@part("boolean(uint8[::1], int64, int64, int64, int64)")
-def segment_free(blocked, cols, a, b, policy):  # type: ignore[no-untyped-def]
-    """Say whether the segment from cell a to cell b is free under a corner policy."""
-    dr = b // cols - a // cols
-    dc = b % cols - a % cols
+@part("boolean(uint8[::1], int64, int64, int64, int64, int64)")
+def segment_free(blocked, cols, a, dr, dc, policy):  # type: ignore[no-untyped-def]
+    """Say whether the segment from cell a over (dr, dc) is free under a corner policy."""
     step_r = cols if dr > 0 else -cols
     step_c = 1 if dc > 0 else -1
     if abs(dc) >= abs(dr):
@@ -58,8 +56,10 @@ def segment_free(blocked, cols, a, b, policy):  # type: ignore[no-untyped-def]
 def segments_free(blocked, cols, first, second, policy):  # type: ignore[no-untyped-def]
     """Test many segments: first[k] to second[k]."""
     free = np.empty(first.shape[0], np.bool_)
+    per_row = 1.0 / cols
     for k in range(first.shape[0]):
-        free[k] = segment_free(blocked, cols, first[k], second[k], policy)
+        dr = row_of(second[k], per_row) - row_of(first[k], per_row)
+        free[k] = segment_free(blocked, cols, first[k], dr, second[k] - first[k] - dr * cols, policy)
     return free
 
 
@@ -71,6 +71,7 @@ def delete_points(population, blocked, cols, policy, passes):  # type: ignore[no
     ``passes``: how often; 0: until nothing changes.
     """
     n, width = population.shape
+    per_row = 1.0 / cols
     out = blank(n, width)
     most = 1
     for k in range(n):
@@ -80,9 +81,17 @@ def delete_points(population, blocked, cols, policy, passes):  # type: ignore[no
         done = 0
         while passes == 0 or done < passes:
             kept = min(count, 1)
+            last = row[0]
+            r = row_of(last, per_row)
             for i in range(1, count):
-                if i == count - 1 or not segment_free(blocked, cols, row[kept - 1], row[i + 1], policy):
-                    row[kept] = row[i]
+                keep = i == count - 1
+                if not keep:
+                    dr = row_of(row[i + 1], per_row) - r
+                    keep = not segment_free(blocked, cols, last, dr, row[i + 1] - last - dr * cols, policy)
+                if keep:
+                    last = row[i]
+                    r = row_of(last, per_row)
+                    row[kept] = last
                     kept += 1
             for i in range(kept, count):
                 row[i] = -1

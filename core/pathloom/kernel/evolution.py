@@ -9,13 +9,14 @@ component of kind *control* or *migration*, never a branch in this loop.
 
 import time
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.errors import ConfigError
+from pathloom.kernel.archive import Archive
 from pathloom.kernel.component import Component, Count, members
 from pathloom.kernel.counting import count, counting, total
 from pathloom.kernel.evaluation import Fitness, Floats, ReciprocalOfSum, Terms, Weighting, measure
@@ -95,7 +96,9 @@ class Evolution(Planner):
     migration: Migration | None = None
     """Exchange between several populations."""
     refinement: Repair | None = None
-    """Improves the best individual at the end."""
+    """Improves the answer at the end."""
+    archive: Archive | None = None
+    """Keeps the answer; empty: the fittest individual ever seen is the answer."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -135,7 +138,7 @@ class Evolution(Planner):
         return any(len(deme) == 0 for deme in state.demes) or super().done(state)
 
     def result(self, state: State) -> Outcome:
-        best = state.best
+        best = state.answer
         if best is None:
             failed = state.counts.get("samples failed", 0)
             return Outcome(None, reason=f"{self.sampling.name!r} found no first individual in {failed} tries")
@@ -177,27 +180,38 @@ class Evolution(Planner):
         self, before: State, demes: tuple[Deme, ...], generation: int, rng: np.random.Generator,
         counts: dict[str, int], began: float,
     ) -> State:  # fmt: skip
-        evaluations = before.evaluations + counts.pop("evaluations", 0)
-        best, main = before.best, demes[0]
-        for deme in demes:
-            if len(deme) and (best is None or deme.fitness[deme.best()] > best.fitness):
-                row = deme.best()
-                best = Individual(deme.population[row], deme.values[row], float(deme.fitness[row]), generation)
+        problem, best, answer, main = before.problem, before.best, before.answer, demes[0]
         history = before.history
+        diversity = 0.0
+        for index, deme in enumerate(demes):
+            if len(deme) == 0:
+                continue
+            row = deme.best()
+            if best is None or deme.fitness[row] > best.fitness:
+                best = Individual(deme.population[row], deme.values[row], float(deme.fitness[row]), generation)
+            if index == 0:
+                diversity = len(problem.representation.first_of_each(deme.population)) / len(deme)
+            if self.archive is not None:
+                was = before.demes[index].population if before.demes else deme.population[:0]
+                new = problem.representation.newcomers(deme.population, was)
+                with counting() as kept:
+                    answer = self.archive.update(answer, deme, new, generation, problem, self.refinement, rng)
+                counts = total(counts, kept)
+        evaluations = before.evaluations + counts.pop("evaluations", 0)
         if best is not None and len(main):
-            diversity = before.problem.representation.diversity(main.population)
-            top, mean = float(main.fitness.max()), float(main.fitness.mean())
-            history = history.extended(evaluations, best.fitness, top, mean, diversity)
-        return replace(
-            before,
-            random=rng.bit_generator.state,
-            generation=generation,
-            evaluations=evaluations,
-            demes=demes,
-            best=best,
-            history=history,
-            counts=total(before.counts, counts) if counts else before.counts,
-            seconds=before.seconds + time.perf_counter() - began,
+            mean = float(main.fitness.mean())
+            history = history.extended(evaluations, best.fitness, float(main.fitness.max()), mean, diversity)
+        return State(
+            problem,
+            rng.bit_generator.state,
+            generation,
+            evaluations,
+            demes,
+            best,
+            best if self.archive is None else answer,
+            history,
+            total(before.counts, counts) if counts else before.counts,
+            before.seconds + time.perf_counter() - began,
         )
 
     def _check_requirements(self) -> None:

@@ -27,8 +27,12 @@ class Representation(Component, ABC):
         """Return the rows of both populations in one."""
         return np.concatenate((first, second))
 
-    def diversity(self, population: Population) -> float:
-        """Return the share of distinct individuals, in (0, 1]; 0 for an empty population."""
-        if len(population) == 0:
-            return 0.0
-        return len(np.unique(population, axis=0)) / len(population)
+    def first_of_each(self, population: Population) -> NDArray[np.intp]:
+        """Return, in order, the index of the first of each distinct individual."""
+        return np.sort(np.unique(population, axis=0, return_index=True)[1])
+
+    def newcomers(self, population: Population, before: Population) -> NDArray[np.intp]:
+        """Return, in order, the index of the first of each distinct individual that was not there before."""
+        known = {row.tobytes() for row in before}
+        first = self.first_of_each(population)
+        return first[[population[k].tobytes() not in known for k in first]]

@@ -5,10 +5,11 @@ always leads to the same next one.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.random.bit_generator import ISeedSequence
 from numpy.typing import NDArray
 
 from pathloom.kernel.evaluation import Floats
@@ -41,6 +42,8 @@ class Individual:
     values: Floats
     fitness: float
     generation: int
+    merit: float = 0.0
+    """What an archive goes by, to be maximised."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +63,12 @@ class History:
 
     def extended(self, evaluations: int, best: float, generation_best: float, mean: float, diversity: float) -> "History":
         """Return the history with one more generation."""
-        return replace(
-            self,
-            evaluations=(*self.evaluations, evaluations),
-            best=(*self.best, best),
-            generation_best=(*self.generation_best, generation_best),
-            mean=(*self.mean, mean),
-            diversity=(*self.diversity, diversity),
+        return History(
+            (*self.evaluations, evaluations),
+            (*self.best, best),
+            (*self.generation_best, generation_best),
+            (*self.mean, mean),
+            (*self.diversity, diversity),
         )
 
 
@@ -85,7 +87,9 @@ class State:
     demes: tuple[Deme, ...] = ()
     """The populations; the first one is the main one."""
     best: Individual | None = None
-    """Best individual found so far, kept even where the population loses it."""
+    """Fittest individual found so far, kept even where the population loses it."""
+    answer: Individual | None = None
+    """What the planner's archive keeps; without an archive the fittest."""
     history: History = field(default_factory=History)
     counts: Mapping[str, int] = field(default_factory=dict)
     """Failures and fallbacks so far."""
@@ -103,8 +107,15 @@ class State:
         return self.demes[0].fitness
 
 
+class _Unseeded(ISeedSequence):
+    """Zeros, for a generator that is about to be told its state: a tenth of the cost of seeding."""
+
+    def generate_state(self, n_words: int, dtype: Any = np.uint32) -> NDArray[Any]:
+        return np.zeros(n_words, dtype)
+
+
 def generator(random: Mapping[str, Any]) -> np.random.Generator:
     """Return a generator that goes on where the recorded one stood."""
-    rng = np.random.Generator(np.random.PCG64(0))
-    rng.bit_generator.state = random
-    return rng
+    bits = np.random.PCG64(_Unseeded())
+    bits.state = random
+    return np.random.Generator(bits)

@@ -47,7 +47,8 @@ class CellPaths(Representation):
         both[len(first) :, : second.shape[1]] = second
         return both
 
-    def diversity(self, population: Population) -> float:
-        if len(population) == 0:
-            return 0.0
-        return int(compiled.cells.distinct(population)) / len(population)
+    def first_of_each(self, population: Population) -> NDArray[np.intp]:
+        return np.asarray(compiled.cells.newcomers(population, population[:0]))
+
+    def newcomers(self, population: Population, before: Population) -> NDArray[np.intp]:
+        return np.asarray(compiled.cells.newcomers(population, before))
