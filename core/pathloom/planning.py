@@ -92,7 +92,7 @@ def plan(
         "evaluations": state.evaluations if state else 0,
         "seconds": sum(finished.phases.values()),
         "phases": finished.phases,
-        "failures": dict(sorted(state.counts.items())) if state else {},
+        "counts": dict(sorted(state.counts.items())) if state else {},
     }
     if state is not None:
         facts["history"] = {k: list(v) for k, v in vars(state.history).items()}

@@ -47,7 +47,7 @@ class Result:
     gap: Mapping[str, float | None] | None = None
     """length / optimum − 1."""
     budget: Mapping[str, Any] = field(default_factory=dict)
-    """Generations, evaluations, seconds, seconds by phase, and counted failures."""
+    """Generations, evaluations, seconds, seconds by phase, and what operators counted."""
     history: Mapping[str, Any] = field(default_factory=dict)
     """For each generation: evaluations so far, best fitness so far, the generation's own, mean, diversity."""
     config: Mapping[str, Any] = field(default_factory=dict)

@@ -27,6 +27,8 @@ def segment_free(blocked, cols, a, dr, dc, policy):  # type: ignore[no-untyped-d
         n, m, along, across = abs(dc), abs(dr), step_c, step_r
     else:
         n, m, along, across = abs(dr), abs(dc), step_r, step_c
+    if n == 0:
+        return blocked[a] == 0
     limit = n + m
     low = 0  # first j of this i that the segment meets
     side = 0  # 2 (n low − m i)

@@ -31,7 +31,9 @@ NARROWEST = 380
 # then the steps from ground to ink for text and from disc to letter.
 TONES, CROWDS, BESTS, STEPS = 4, 12, 4, 8
 INK = TONES * CROWDS * BESTS
-VEIL = 0.16
+SMOOTH = 200_000
+"""Points of a crowd up to which its lines have smooth edges; beyond it one would not see them."""
+VEIL = 0.2
 """Share of a pixel's colour that one path of the population takes."""
 
 
@@ -163,15 +165,20 @@ class Stage:
         share = (np.arange(count.sum()) - np.repeat(count.cumsum() - count, count) + 0.5) / count[segment]
         points = tails[segment] + share[:, np.newaxis] * (heads - tails)[segment]
         high, wide = self.size
-        cover = np.zeros(high * wide)
-        base = np.floor(points).astype(int)
-        off = points - base
-        for down in (0, 1):  # a point lies between four pixels, each takes its part
-            for right in (0, 1):
-                row, col = np.clip(base[:, 0] + down, 0, high - 1), np.clip(base[:, 1] + right, 0, wide - 1)
-                part = np.abs(1 - down - off[:, 0]) * np.abs(1 - right - off[:, 1])
-                cover += np.bincount(row * wide + col, part, minlength=high * wide)
-        veil = 1 - (1 - VEIL) ** cover
+
+        def cover(at: NDArray[np.int64], part: NDArray[np.float64] | None) -> NDArray[np.float64]:
+            row, col = np.clip(at[:, 0], 0, high - 1), np.clip(at[:, 1], 0, wide - 1)
+            return np.bincount(row * wide + col, part, minlength=high * wide).astype(np.float64)
+
+        if len(points) > SMOOTH:
+            covered = cover(np.rint(points).astype(np.int64), None)
+        else:  # a point lies between four pixels, and each takes its part
+            base = np.floor(points).astype(np.int64)
+            off = points - base
+            covered = np.zeros(high * wide)
+            for corner in ((0, 0), (0, 1), (1, 0), (1, 1)):
+                covered += cover(base + corner, np.abs(1 - np.array(corner) - off).prod(axis=1))
+        veil = 1 - (1 - VEIL) ** covered
         return np.rint(veil * (CROWDS - 1)).astype(np.uint8).reshape(self.size)
 
     def _best(self, path: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -185,9 +192,10 @@ class Stage:
         draw = ImageDraw.Draw(image)
         points = [(2 * col + 1, 2 * row + 1) for row, col in path]
         draw.line(points, fill=255, width=2 * self.thick, joint="curve")
+        reach = 2 * self.thick
         if self.scale >= 8:
             for x, y in points:
-                draw.circle((x, y), 2 * self.thick, fill=255)
+                draw.ellipse((x - reach, y - reach, x + reach, y + reach), fill=255)
         return np.rint(np.asarray(image.reduce(2)) / 255 * (BESTS - 1)).astype(np.uint8)
 
     def _text(self, words: str, x: int, anchor: str = "lm") -> NDArray[np.uint8]:
@@ -208,7 +216,7 @@ class Stage:
         row, col = (round(float(v)) for v in self._pixels([cell])[0])
         side = 2 * radius + 1
         round_, text = Image.new("L", (side, side)), Image.new("L", (side, side))
-        ImageDraw.Draw(round_).circle((radius, radius), radius, fill=255)
+        ImageDraw.Draw(round_).ellipse((0, 0, side - 1, side - 1), fill=255)
         ImageDraw.Draw(text).text(
             (radius + 0.5, radius + 0.5), letter, fill=255, font=self.small, anchor="mm"
         )

@@ -153,7 +153,12 @@ class Scene:
         axes.set_ylim(box[2], box[3])
         for axis, ratio in ((axes.xaxis, self.aspect), (axes.yaxis, 1 / self.aspect)):
             axis.set_major_locator(
-                MaxNLocator(nbins=5 if ratio > 0.5 else 2, integer=metres is None, steps=STEPS)
+                MaxNLocator(
+                    nbins=5 if ratio > 0.6 else 3 if ratio > 0.3 else 2,
+                    integer=metres is None,
+                    steps=STEPS,
+                    min_n_ticks=1,
+                )
             )
         axes.set_xlabel("column" if metres is None else "metres from the left", size=TEXT)
         axes.set_ylabel("row" if metres is None else "metres from the bottom", size=TEXT)
@@ -185,15 +190,16 @@ class Scene:
         add(
             path, "path", 1.2, color=colours.path, linewidth=thick, linestyle="-", zorder=3,
             solid_joinstyle="round", solid_capstyle="round", marker="o" if nodes <= NODED else "",
-            markersize=thick + 2.6, markerfacecolor=colours.free, markeredgecolor=colours.path, markeredgewidth=1.3,
+            markersize=thick + 2.6, markerfacecolor=colours.free, markeredgecolor=colours.path,
+            markeredgewidth=1.3,
         )  # fmt: skip
         add(
-            unrefined, "before refinement", 0.0, color=colours.unrefined, linewidth=1.1, linestyle=(0, (4, 2.5)),
-            zorder=4, dash_joinstyle="round",
+            unrefined, "before refinement", 0.0, color=colours.unrefined, linewidth=1.1,
+            linestyle=(0, (4, 2.5)), zorder=4, dash_joinstyle="round",
         )  # fmt: skip
         add(
-            optimum, "optimum", 0.0, color=colours.optimum, linewidth=thick * 0.75, linestyle=(0, (0.1, 1.9)), zorder=5,
-            dash_capstyle="round",
+            optimum, "optimum", 0.0, color=colours.optimum, linewidth=thick * 0.75,
+            linestyle=(0, (0.1, 1.9)), zorder=5, dash_capstyle="round",
         )  # fmt: skip
         return handles
 
@@ -217,7 +223,10 @@ class Scene:
                 letter, (float(at_x[0]), float(at_y[0])), xytext=(sign * push * x, sign * push * y),
                 textcoords="offset points", ha="center", va="center_baseline", size=8.5, weight="bold",
                 color="#ffffff", zorder=7, annotation_clip=False,
-                bbox={"boxstyle": "circle,pad=0.22", "facecolor": colour, "edgecolor": colours.free, "linewidth": 0.9},
+                bbox={
+                    "boxstyle": "circle,pad=0.22", "facecolor": colour, "edgecolor": colours.free,
+                    "linewidth": 0.9,
+                },
             )  # fmt: skip
         over_left = DISC / 2 - (min(c0, c1) + 0.5) * points_per_cell
         over_bottom = DISC / 2 - (len(self.walls) - max(r0, r1) - 0.5) * points_per_cell
@@ -294,7 +303,7 @@ class Curves:
             axes.grid(visible=True, color=colours.faint, linewidth=0.6)
             axes.set_axisbelow(True)
             axes.spines[["top", "right"]].set_visible(False)
-        bottom.xaxis.set_major_locator(MaxNLocator(nbins=5, integer=True, steps=STEPS))
+        bottom.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=True, steps=STEPS))
         bottom.xaxis.set_major_formatter(EngFormatter(sep=""))
         bottom.set_xlabel("evaluations" if self.counted else "generation", size=TEXT)
 
@@ -341,7 +350,7 @@ def _lay_out(  # noqa: PLR0917 - one caller, above
     for panel, size in zip(panels, sizes, strict=True):
         _resize(figure, panel, panel_width, size)
     scene.draw_ends(axes, ends, height * 72 / rows)
-    left, right, bottom, top = _overhang(figure, axes)
+    left, right, bottom, top = (max(it, 0.08) for it in _overhang(figure, axes))
     around = [_overhang(figure, panel) for panel in panels]
     panel_left = max((it[0] for it in around), default=0.0)
     panel_right = max((it[1] for it in around), default=0.0)
@@ -354,6 +363,7 @@ def _lay_out(  # noqa: PLR0917 - one caller, above
     legend_size = _size(figure, legend) if legend else (0.0, 0.0)
     curve_legend = _legend(figure, _curve_handles(panels), colours, panel_width + 0.3)
     curve_size = _size(figure, curve_legend) if curve_legend else (0.0, 0.0)
+    panel_right = max(panel_right, curve_size[0] - 0.05 - panel_width)
     column = max(column, legend_size[0])
 
     total = PAD + column + PAD
@@ -368,9 +378,11 @@ def _lay_out(  # noqa: PLR0917 - one caller, above
     head = sum(len(lines) * size * 1.3 / 72 for lines, size, _, _ in blocks) + (0.06 if blocks else 0.0)
 
     below_map = bottom + 0.04 + legend_size[1]
+    if beside:  # the map's upper edge is that of the panels
+        top = max(top, curve_size[1])
     body = top + height + below_map
     if beside:
-        body = max(body, curve_size[1] + panel_height + panel_bottom)
+        body = max(body, top + panel_height + panel_bottom)
     elif panels:
         body += 0.12 + curve_size[1] + panel_height + panel_bottom
     full = PAD + head + body + PAD * 0.6
@@ -390,8 +402,7 @@ def _lay_out(  # noqa: PLR0917 - one caller, above
         it.set_position((x / total, bottom_edge / full, w / total, h / full))
 
     map_left = PAD + left
-    # A map lower than the panels beside it keeps their upper edge.
-    map_top = y - (max(top, curve_size[1]) if beside else top)
+    map_top = y - top
     put(axes, map_left, map_top - height, width, height)
     if legend:
         centred = map_left + (width - legend_size[0]) / 2
@@ -414,10 +425,10 @@ def _lay_out(  # noqa: PLR0917 - one caller, above
 def _map_size(aspect: float, *, beside: bool) -> tuple[float, float]:
     """Return width and height of the map for a figure as wide as a page at most."""
     if aspect >= WIDE:
-        return 6.4, max(6.4 / aspect, 0.2)
+        return 6.4, max(6.4 / aspect, 0.04)
     side = 3.8 if beside else 4.6
     height = min(side / aspect, side * 1.5)
-    return max(height * aspect, 0.2), height
+    return max(height * aspect, 0.04), height
 
 
 def _panel_heights(height: float, count: int) -> list[float]:
@@ -459,8 +470,8 @@ def _legend(figure: "Figure", handles: "list[Artist]", colours: Theme, room: flo
     for columns in range(len(handles), 0, -1):
         legend = figure.legend(
             handles=handles, loc="upper left", ncols=columns, frameon=False, fontsize=SMALL,
-            labelcolor=colours.ink, borderpad=0.25, handlelength=1.9, handletextpad=0.5,
-            columnspacing=1.1, labelspacing=0.35, borderaxespad=0.0,
+            labelcolor=colours.ink, borderpad=0.25, handlelength=1.7, handletextpad=0.5,
+            columnspacing=1.0, labelspacing=0.35, borderaxespad=0.0,
         )  # fmt: skip
         if columns == 1 or _size(figure, legend)[0] <= room:
             return legend

@@ -123,10 +123,10 @@ def _dots(walls: Mask, rims: Mask, path: Path, ends: tuple[Cell, Cell], room: tu
         dots = (2 * cells + 1) * np.array([high, wide]) // (2 * np.array([rows, cols]))
         return [(int(r) // 4, int(c) // 2) for r, c in dots]
 
-    for mark, cells in (("•", crossed(path)), ("S", np.array(ends[:1])), ("G", np.array(ends[1:]))):
+    for mark, cells in (("●", crossed(path)), ("S", np.array(ends[:1])), ("G", np.array(ends[1:]))):
         for line, char in place(cells):
             signs[line][char] = mark
-            kinds[line][char] = "*" if mark == "•" else mark
+            kinds[line][char] = "*" if mark == "●" else mark
     return signs, kinds
 
 

@@ -1,0 +1,5 @@
+"""``python -m pathloom``."""
+
+from pathloom.cli import main
+
+main()

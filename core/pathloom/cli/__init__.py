@@ -1,0 +1,82 @@
+"""The command line. Commands are loaded when they are called, so that ``--help`` is instant."""
+
+import os
+import sys
+from importlib import import_module
+from typing import Any
+
+import click
+
+COMMANDS = {
+    "plan": "Plan one path and show how good it is.",
+    "maps": "List, show, check and make maps.",
+    "plugins": "List and show plugins and their components.",
+}
+"""Each command's module in this folder, and what it is for."""
+
+DONE, BAD_INPUT, NO_PATH, INTERRUPTED, DEFECT = 0, 2, 3, 130, 1
+
+
+class Commands(click.Group):
+    """A group that knows its commands by name and imports one when it is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        if cmd_name not in COMMANDS:
+            return None
+        return import_module(f"pathloom.cli.{cmd_name}").command  # type: ignore[no-any-return]
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            from pathloom.kernel.names import closest
+
+            raise click.UsageError(f"no command is called {args[0]!r}; {closest(args[0], COMMANDS)}")
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="pathloom")
+def pathloom() -> None:
+    """Evolutionary path planning on occupancy grids, held against the exact optimum.
+
+    Exit codes: 0 done, 2 bad input, 3 no path, 130 interrupted, 1 a defect of pathloom.
+    """
+
+
+def main() -> None:
+    """Run the command line and exit with its code: one line for whatever goes wrong."""
+    from pathloom.errors import PathloomError
+
+    try:
+        code = pathloom.main(standalone_mode=False)
+        sys.stdout.flush()
+    except PathloomError as error:
+        code = _say(str(error), BAD_INPUT)
+    except click.ClickException as error:
+        command = error.ctx.command_path if isinstance(error, click.UsageError) and error.ctx else ""
+        where = f"{command.removeprefix('pathloom').strip()}: " if " " in command else ""
+        code = _say(where + error.format_message(), BAD_INPUT)
+    except (KeyboardInterrupt, click.Abort):
+        code = _say("interrupted", INTERRUPTED)
+    except BrokenPipeError:  # whoever read our output has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = DONE
+    except OSError as error:
+        code = _say(f"{error.filename or 'output'}: {error.strerror or error}", BAD_INPUT)
+    except Exception as error:
+        if os.environ.get("PATHLOOM_TRACEBACK"):
+            raise
+        shown = f"a defect, please report it: {type(error).__name__}: {error}"
+        code = _say(f"{shown} (PATHLOOM_TRACEBACK=1 shows where)", DEFECT)
+    sys.exit(code or DONE)
+
+
+def _say(message: str, code: int) -> int:
+    print("pathloom: " + " ".join(message.split()), file=sys.stderr)
+    return code

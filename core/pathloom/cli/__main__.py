@@ -1,0 +1,5 @@
+"""``python -m pathloom.cli``."""
+
+from pathloom.cli import main
+
+main()

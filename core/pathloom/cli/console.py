@@ -1,0 +1,89 @@
+"""What commands share on the terminal: two consoles, and progress on long work."""
+
+import json
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from pathloom.compiled.jit import listening
+from pathloom.kernel.planner import Planner
+from pathloom.kernel.state import State
+
+PATIENCE = 0.7
+"""Seconds of work before progress is shown."""
+
+
+def out() -> Console:
+    """Return the console for results. Piped, it neither colours nor folds its lines at 80 columns."""
+    console = Console(highlight=False, soft_wrap=False)
+    if not console.is_terminal:
+        console.width = 120
+    return console
+
+
+def err() -> Console:
+    """Return the console for progress and messages."""
+    return Console(stderr=True, highlight=False)
+
+
+def print_json(document: Any) -> None:
+    """Print one JSON document, and nothing else, on standard output."""
+    sys.stdout.write(json.dumps(document, allow_nan=False, ensure_ascii=False) + "\n")
+
+
+@contextmanager
+def compiling(*, quiet: bool) -> Iterator[None]:
+    """Say that kernels are compiled, the first time on a machine, and how far that is."""
+    if quiet:
+        yield
+        return
+    console = err()
+    bar = _bar(console)
+    task = bar.add_task("compiling kernels, once", total=None)
+    told = False
+
+    def tell(done: int, total: int) -> None:
+        nonlocal told
+        if not told:
+            told = True
+            if console.is_terminal:
+                bar.start()
+            else:
+                console.print("compiling kernels, once; this takes some seconds")
+        bar.update(task, completed=done, total=total)
+
+    try:
+        with listening(tell):
+            yield
+    finally:
+        bar.stop()
+
+
+@contextmanager
+def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], None]]:
+    """Give a function that is told every state, and shows progress when the work takes long."""
+    console = err()
+    bar = _bar(console)
+    task = bar.add_task(planner.name, total=1.0)
+    began = time.perf_counter()
+
+    def watch(state: State) -> None:
+        if quiet or not console.is_terminal or time.perf_counter() - began < PATIENCE:
+            return
+        bar.start()
+        bar.update(task, completed=planner.progress(state), description=f"{planner.name}, generation {state.generation}")
+
+    try:
+        yield watch
+    finally:
+        bar.stop()
+
+
+def _bar(console: Console) -> Progress:
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=console, transient=True)

@@ -1,0 +1,202 @@
+"""``pathloom plan``: one path."""
+
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from pathloom.cli import DONE, INTERRUPTED, NO_PATH
+from pathloom.config import DEFAULT_PLANNER, Config, parse_place, read_config
+from pathloom.errors import ConfigError, MapError
+
+EXPORTS = (".csv", ".json")
+PLOTS = (".png", ".svg", ".pdf", ".gif")
+
+
+@click.command("plan")
+@click.argument("config", required=False)
+@click.option("--planner", metavar="NAME", help="The planner, e.g. imga; `pathloom plugins list` shows all.")
+@click.option("--map", "map_", metavar="NAME|FILE", help="A registered or generated map, or a file.")
+@click.option("--scenario", metavar="FILE", help="A Moving AI scenario: sets map, start and goal.")
+@click.option("--case", type=int, default=None, help="Line of the scenario, counted from 0.")
+@click.option("--start", metavar="ROW,COL|CORNER", help="Where to start; default bottom-left.")
+@click.option("--goal", metavar="ROW,COL|CORNER", help="Where to go; default top-right.")
+@click.option("--world", is_flag=True, help="Start and goal are X,Y in metres.")
+@click.option("--corners", metavar="POLICY", help="strict (default), no-squeeze or allow.")
+@click.option("--radius", type=float, help="Radius of the robot, in metres where the map has a resolution, else in cells.")
+@click.option("--unknown", metavar="occupied|free", help="What unknown cells of a ROS map count as.")
+@click.option("--threshold", type=int, metavar="GREY", help="Grey (0 to 255) below which a pixel is an obstacle.")
+@click.option("--seed", type=int, help="An integer from 0 on; the same seed gives the same result.")
+@click.option("--set", "settings", multiple=True, metavar="SLOT=COMPONENT|SLOT.FIELD=VALUE", help="Change one part.")
+@click.option("--time-limit", type=float, metavar="SECONDS", help="Answer with the best so far after this time.")
+@click.option("--optimum", is_flag=True, help="Compute the exact optima and the gaps to them.")
+@click.option("--freeze", is_flag=True, help="Print the complete config instead of planning.")
+@click.option("--plot", metavar="FILE", help="Draw map, path and convergence: png, svg, pdf; gif shows the evolution.")
+@click.option("--dark", is_flag=True, help="Draw on a dark background.")
+@click.option("--out", metavar="FILE", help="Write the JSON document.")
+@click.option("--export", metavar="FILE", help="Write the path: csv of cells and metres, json of a nav_msgs/Path.")
+@click.option("--json", "as_json", is_flag=True, help="Print the JSON document instead of table and picture.")
+@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+@click.pass_context
+def command(ctx: click.Context, /, **options: Any) -> None:
+    """Plan one path.
+
+    With no argument at all: the default planner on a generated map. CONFIG is a
+    TOML file; options go before what it says.
+    """
+    quiet = options["quiet"]
+    config, facts = _config(options)
+    _check_files(options)
+
+    from pathloom.cli import console
+    from pathloom.config import frozen
+
+    with console.compiling(quiet=quiet):
+        planner = _planner(config, options["settings"])
+        problem = config.problem.build()
+        if facts is not None:
+            facts["scenario"].check(facts["case"], problem.grid)
+        name = config.problem.map
+        if options["freeze"]:
+            import tomli_w
+
+            # The frozen config may be kept anywhere: name the map's file in full.
+            full = str(Path(name).resolve()) if Path(name).is_file() else name
+            table = frozen(problem, full, planner, config.seed, config.time_limit)
+            table["problem"].update(unknown=config.problem.unknown)
+            if config.problem.threshold is not None:
+                table["problem"]["threshold"] = config.problem.threshold
+            click.echo(tomli_w.dumps(table), nl=False)
+            return
+        ctx.exit(_run(ctx, config, planner, problem, options, facts))
+
+
+def _run(ctx: click.Context, config: Config, planner: Any, problem: Any, options: dict[str, Any], facts: Any) -> int:
+    from pathloom.cli import console, report
+    from pathloom.planning import plan
+
+    frames: list[Any] = []
+    animated = bool(options["plot"]) and Path(options["plot"]).suffix.lower() == ".gif"
+    with console.planning(planner, quiet=options["quiet"]) as tell:
+
+        def watch(state: Any) -> None:
+            tell(state)
+            if animated:
+                frames.append(report.frame(state, planner))
+
+        result = plan(
+            problem,
+            planner,
+            seed=config.seed,
+            time_limit=config.time_limit,
+            optimum=options["optimum"],
+            map_name=config.problem.map,
+            watch=watch,
+        )
+    if facts is not None:
+        result = replace(result, problem={**result.problem, **facts["said"]})
+    messages = console.err()
+    if result.status == "unreachable":
+        if options["as_json"]:
+            console.print_json(result.to_dict())
+        messages.print(f"pathloom: no path: {result.reason}", soft_wrap=True)
+        return NO_PATH
+
+    if options["as_json"]:
+        console.print_json(result.to_dict())
+    else:
+        report.show(result, console.out())
+    report.write(result, options, frames)
+    if not options["quiet"]:
+        for note in report.notes(result):
+            messages.print(f"pathloom: {note}", soft_wrap=True)
+    if not result.found:
+        messages.print(f"pathloom: no path: {result.reason}{report.advice(result)}", soft_wrap=True)
+    if result.interrupted:
+        messages.print("pathloom: interrupted; this is the best so far", soft_wrap=True)
+        return INTERRUPTED
+    return DONE if result.found else NO_PATH
+
+
+def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
+    config = read_config(options["config"]) if options["config"] else Config()
+    world = options["world"]
+    changes: dict[str, Any] = {}
+    facts = None
+    if options["case"] is not None and not options["scenario"]:
+        raise ConfigError("--case: needs --scenario FILE")
+    if options["scenario"]:
+        from pathloom.grid import read_scenario
+
+        if options["map_"]:
+            raise ConfigError("--scenario: sets the map; leave --map away")
+        scenario = read_scenario(options["scenario"])
+        case = scenario.case(options["case"] or 0)
+        changes.update(map=str(scenario.map_path(case)), start=case.start, goal=case.goal, world=False)
+        said = {"file": options["scenario"], "case": options["case"] or 0, "stated_optimum": case.optimum}
+        facts = {"scenario": scenario, "case": case, "said": {"scenario": {**said, "tolerance": case.tolerance}}}
+    if options["map_"] is not None:
+        changes["map"] = options["map_"]
+    for end in ("start", "goal"):
+        if options[end] is not None:
+            changes[end] = parse_place(options[end], f"--{end}", world=world)
+    if world:
+        changes["world"] = True
+    for name in ("corners", "radius", "unknown", "threshold"):
+        if options[name] is not None:
+            changes[name] = options[name]
+    config = replace(config, problem=replace(config.problem, **changes))
+    if options["planner"] is not None:
+        config = replace(config, planner={"use": options["planner"]})
+    if options["seed"] is not None:
+        config = replace(config, seed=options["seed"])
+    if options["time_limit"] is not None:
+        config = replace(config, time_limit=options["time_limit"])
+    from pathloom.kernel.run import check_seed
+
+    check_seed(config.seed)
+    if config.time_limit is not None and not config.time_limit > 0:
+        raise ConfigError(f"--time-limit: found {config.time_limit!r}, allowed seconds above 0")
+    return config, facts
+
+
+def _planner(config: Config, settings: tuple[str, ...]) -> Any:
+    from pathloom.kernel.compose import compose, override
+
+    try:
+        planner = compose(config.planner or DEFAULT_PLANNER)
+    except ConfigError as error:
+        raise ConfigError(str(error).removeprefix("planner: ")) from error
+    for setting in settings:
+        path, equals, text = setting.partition("=")
+        if not equals or not path:
+            raise ConfigError(f"--set {setting}: found no '=', allowed SLOT=COMPONENT or SLOT.FIELD=VALUE")
+        planner = override(planner, path.strip(), _value(text.strip()), where="--set")
+    return planner
+
+
+def _value(text: str) -> Any:
+    """Return what a value means in TOML; a bare word is a name."""
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
+
+
+def _check_files(options: dict[str, Any]) -> None:
+    """Refuse files that could not be written, before any work is done."""
+    for option, allowed in (("plot", PLOTS), ("export", EXPORTS), ("out", None)):
+        name = options[option]
+        if name is None:
+            continue
+        file = Path(name)
+        if allowed and file.suffix.lower() not in allowed:
+            raise ConfigError(f"--{option}: found the suffix {file.suffix!r}, allowed {' '.join(allowed)}")
+        from os import W_OK, access
+
+        if not file.parent.is_dir() or not access(file.parent, W_OK):
+            raise MapError(f"{name}: the folder {str(file.parent)!r} does not exist or is not writable")
+        if file.is_dir():
+            raise MapError(f"{name}: is a folder")

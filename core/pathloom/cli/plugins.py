@@ -1,0 +1,212 @@
+"""``pathloom plugins``: list and show what is installed."""
+
+import inspect
+from typing import Any
+
+import click
+
+from pathloom.errors import ConfigError
+
+
+@click.group("plugins")
+def command() -> None:
+    """List and show plugins and their components."""
+
+
+@command.command("list")
+@click.option("--kind", help="Only components of one kind, e.g. selection.")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
+def list_(kind: str | None, as_json: bool) -> None:
+    """List plugins and components, broken plugins with their cause."""
+    from rich.table import Table
+
+    from pathloom.cli import console
+    from pathloom.kernel.names import closest
+    from pathloom.kernel.registry import default_registry
+
+    registry = default_registry()
+    broken = registry.broken()
+    entries = list(registry.all_entries())
+    kinds = {e.component.kind for e in entries}
+    if kind is not None and kind not in kinds:
+        raise ConfigError(f"--kind: no component is of the kind {kind!r}; {closest(kind, kinds)}")
+    rows = [
+        {
+            "kind": e.component.kind,
+            "name": e.name,
+            "about": _about(e.component),
+            "source": e.component.source or getattr(e.component, "reference", ""),
+            "plugin": e.source.namespace,
+            "distribution": f"{e.source.distribution} {e.source.version}".strip(),
+        }
+        for e in entries
+        if kind in (None, e.component.kind)
+    ]
+    rows.sort(key=lambda row: (row["kind"], row["name"]))
+    if as_json:
+        console.print_json({"components": rows, "broken": {k: str(v) for k, v in broken.items()}})
+        return
+    table = Table(box=None, pad_edge=False)
+    for head in ("kind", "name", "what it is"):
+        table.add_column(head, no_wrap=head != "what it is")
+    before = None
+    for row in rows:
+        table.add_row(row["kind"] if row["kind"] != before else "", row["name"], row["about"])
+        before = row["kind"]
+    console.out().print(table)
+    for namespace in registry.namespaces:
+        source = registry.source(namespace)
+        if not source.ours and namespace not in broken:
+            console.out().print(f"{source}", markup=False)
+    for cause in broken.values():
+        console.out().print(f"broken: {cause}", style="red", markup=False, soft_wrap=True)
+
+
+@command.command("show")
+@click.argument("name")
+@click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
+def show(name: str, as_json: bool) -> None:
+    """Show a component: what it is, its source, and its parameters with defaults and ranges."""
+    from rich.table import Table
+
+    from pathloom.cli import console
+    from pathloom.kernel.compose import freeze
+    from pathloom.kernel.component import parameters
+    from pathloom.kernel.names import closest
+    from pathloom.kernel.planner import Planner
+    from pathloom.kernel.registry import default_registry
+
+    registry = default_registry()
+    entries = list(registry.all_entries())
+    found = [e for e in entries if name in (e.name, e.component.name)]
+    exact = [e for e in found if e.name == name]
+    found = exact or found
+    if not found:
+        broken = registry.broken()
+        if name in broken:
+            raise broken[name]
+        if name in registry.namespaces:
+            found = registry.entries(name)
+        else:
+            raise ConfigError(f"no component is called {name!r}; {closest(name, (e.name for e in entries))}")
+    documents = []
+    for entry in found:
+        component = entry.component
+        rows = []
+        for parameter in parameters(component):
+            default = "needed" if parameter.required else _default(parameter.default, registry)
+            about = _field_docs(component).get(parameter.name, "")
+            rows.append({"name": parameter.name, "allowed": parameter.allowed, "default": default, "about": about})
+        document: dict[str, Any] = {
+            "name": entry.name,
+            "kind": component.kind,
+            "about": inspect.getdoc(component) or "",
+            "source": component.source,
+            "plugin": str(entry.source),
+            "needs": sorted(component.needs),
+            "parameters": rows,
+        }
+        if issubclass(component, Planner):
+            document |= {
+                "reference": component.reference,
+                "fidelity": component.fidelity,
+                "assumptions": list(component.assumptions),
+            }
+            if not any(p.required for p in parameters(component)):
+                document["config"] = freeze(component(), registry)
+        documents.append(document)
+    if as_json:
+        console.print_json(documents[0] if len(documents) == 1 else documents)
+        return
+    out = console.out()
+    for document in documents:
+        out.print(f"[bold]{document['name']}[/bold], {document['kind']}, {document['plugin']}")
+        out.print(document["about"], markup=False)
+        if document["source"]:
+            out.print(f"Source: {document['source']}", markup=False)
+        if document.get("reference"):
+            out.print(f"Reference: {document['reference']}", markup=False)
+            out.print(f"Fidelity: {document['fidelity']}", markup=False)
+            for assumption in document["assumptions"]:
+                out.print(f"  - {assumption}", markup=False)
+        if document["parameters"]:
+            table = Table(box=None, pad_edge=False)
+            for head in ("parameter", "allowed", "default", "meaning"):
+                table.add_column(head)
+            for row in document["parameters"]:
+                table.add_row(row["name"], row["allowed"], row["default"], row["about"])
+            out.print(table)
+
+
+@command.command("schema")
+def schema() -> None:
+    """Print the JSON schema of the config, from which editors complete."""
+    import json
+
+    from pathloom.kernel.registry import default_registry
+    from pathloom.schema import schema_of_config
+
+    click.echo(json.dumps(schema_of_config(default_registry()), indent=2))
+
+
+@command.command("cite")
+@click.argument("config")
+def cite(config: str) -> None:
+    """Print BibTeX entries of the planner and the parts that a config (or a planner's name) uses."""
+    from pathlib import Path
+
+    from pathloom.config import read_config
+    from pathloom.kernel.compose import compose
+    from pathloom.kernel.component import members
+    from pathloom.kernel.planner import Planner
+    from pathloom.kernel.registry import default_registry
+
+    planner = compose(read_config(config).planner if Path(config).suffix == ".toml" else config)
+    registry = default_registry()
+    used = [planner, *(part for _, part in members(planner)), *planner.terms.objectives()]
+    spaces = {registry.name_of(type(part)).partition("/")[0] for part in used}
+    written: list[str] = []
+    for entry in registry.all_entries(Planner):
+        bibtex = getattr(entry.component, "bibtex", "")
+        if bibtex and bibtex not in written and (entry.component is type(planner) or entry.source.namespace in spaces):
+            written.append(bibtex)
+    click.echo("\n".join(written), nl=False)
+
+
+def _about(component: type) -> str:
+    return (inspect.getdoc(component) or "").partition("\n")[0]
+
+
+def _default(value: Any, registry: Any) -> str:
+    from pathloom.kernel.component import Component
+
+    if value is None:
+        return "none"
+    if isinstance(value, Component):
+        return str(registry.name_of(type(value)))
+    if isinstance(value, tuple):
+        return ", ".join(_default(getattr(v, "objective", v), registry) for v in value) or "none"
+    return str(value)
+
+
+def _field_docs(component: type) -> dict[str, str]:
+    """Return the docstrings that stand below the fields of a class and its bases."""
+    import ast
+    import textwrap
+
+    docs: dict[str, str] = {}
+    for base in reversed(component.__mro__):
+        try:
+            tree = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
+        except (OSError, TypeError, SyntaxError):
+            continue
+        body = tree.body if isinstance(tree, ast.ClassDef) else []
+        for statement, text in zip(body, body[1:], strict=False):
+            if (
+                isinstance(statement, ast.AnnAssign)
+                and isinstance(statement.target, ast.Name)
+                and isinstance(text, ast.Expr)
+                and isinstance(text.value, ast.Constant)
+            ):
+                docs[statement.target.id] = " ".join(str(text.value.value).split())
+    return docs

@@ -1,0 +1,163 @@
+"""How ``plan`` shows and writes a result."""
+
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from pathloom.grid.files import replace as write_file
+from pathloom.result import Result
+
+
+def show(result: Result, console: Console) -> None:
+    """Print a summary table and a picture of map and path."""
+    from pathloom.draw import picture
+
+    problem = result.path_problem
+    if problem is not None:
+        console.print(
+            picture(
+                problem.grid.occupied,
+                closed=problem.context.occupied if problem.radius else None,
+                start=problem.ends[0],
+                goal=problem.ends[1],
+                path=result.path,
+                width=min(console.width, 100),
+            )
+        )
+    table = Table(box=None, show_header=False, pad_edge=False)
+    for name, value in _rows(result):
+        table.add_row(name, value)
+    console.print(table)
+
+
+def _rows(result: Result) -> Iterator[tuple[str, str]]:
+    said = result.problem
+    yield "map", f"{said['map']}, {said['height']} × {said['width']}, corners {said['corners']}" + (
+        f", radius {said['radius']:g}" if said["radius"] else ""
+    )
+    yield "planner", f"{result.planner}, seed {result.seed}: {result.status}"
+    found = result.metrics
+    if result.found:
+        metres = f" ({found['length_m']:.3f} m)" if "length_m" in found else ""
+        yield "length", f"{found['length']:.4f} cells{metres}, {found['nodes']} nodes"
+        yield "turns", f"{found['turns']}, together {math.degrees(found['turn_angle']):.1f}°"
+        clearance = "no obstacles" if found["min_clearance"] is None else f"{found['min_clearance']:.3f} cells"
+        contacts = f"{found['touches']} touches, {found['squeezes']} squeezes"
+        yield "clearance", f"{clearance}; {found['unsafe_nodes']} unsafe nodes, {contacts}"
+    if result.optimum is not None:
+        gaps = result.gap or {}
+        for name, title in (("any_angle", "any-angle optimum"), ("grid", "octile optimum")):
+            best, gap = result.optimum.get(name), gaps.get(name)
+            if best is None:
+                yield title, "not computed: the map is too large for the exact search"
+            else:
+                yield title, f"{best:.4f} cells" + (f", gap {100 * gap:+.3f} %" if gap is not None else "")
+    objectives = ", ".join(f"{k} {v:.4g}" for k, v in result.objectives.items())
+    if objectives:
+        yield "objectives", f"{objectives}" + (f"; fitness {result.fitness:.6g}" if result.fitness is not None else "")
+    spent = result.budget
+    if spent:
+        phases = ", ".join(f"{k} {v:.3f}" for k, v in spent["phases"].items())
+        yield "effort", f"{spent['generations']} generations, {spent['evaluations']} evaluations"
+        yield "time", f"{spent['seconds']:.3f} s ({phases})"
+        counted = ", ".join(f"{k} {v}" for k, v in spent["counts"].items())
+        if counted:
+            yield "counted", counted
+
+
+def notes(result: Result) -> Iterator[str]:
+    """Yield what a reader of the numbers ought to know."""
+    if result.found and result.reason:
+        yield result.reason
+    scenario = result.problem.get("scenario")
+    grid = (result.optimum or {}).get("grid")
+    if scenario and grid is not None and abs(grid - scenario["stated_optimum"]) > scenario["tolerance"]:
+        yield (
+            f"the scenario states an optimum of {scenario['stated_optimum']:g}; "
+            f"the exact one under {result.problem['corners']!r} is {grid:.8f}"
+        )
+
+
+def advice(result: Result) -> str:
+    """Return what may help where the planner's own sampling found nothing."""
+    sampling = result.config["planner"].get("sampling", {})
+    if result.budget.get("evaluations") == 0 and sampling.get("use") != "perturbed-trees":
+        return "; try --set sampling=perturbed-trees"
+    return ""
+
+
+def frame(state: Any, planner: Any) -> Any:
+    """Return one frame of the animation: generation, paths, best path and its fitness."""
+    decode = state.problem.representation.decode
+    paths = [decode(row) for row in state.population] if state.demes else []
+    best = decode(state.answer.row) if state.answer is not None else None
+    return state.generation, paths, best, state.answer.fitness if state.answer is not None else 0.0
+
+
+def write(result: Result, options: dict[str, Any], frames: list[Any]) -> None:
+    """Write the files that were asked for, each under a temporary name first."""
+    if options["out"]:
+        write_file(options["out"], (result.to_json() + "\n").encode())
+    if options["export"] and result.found:
+        write_file(options["export"], export(result, Path(options["export"]).suffix.lower()).encode())
+    if options["plot"]:
+        if Path(options["plot"]).suffix.lower() == ".gif":
+            from pathloom.draw import animate
+
+            problem = result.path_problem
+            usable = [f for f in frames if f[2] is not None]
+            if problem is not None and usable:
+                if result.path is not None:  # the last frame shows the answer as it is after refinement
+                    usable.append((usable[-1][0], [], result.path, usable[-1][3]))
+                animate(
+                    usable,
+                    options["plot"],
+                    occupied=problem.grid.occupied,
+                    closed=problem.context.occupied if problem.radius else None,
+                    start=problem.ends[0],
+                    goal=problem.ends[1],
+                    dark=options["dark"],
+                )
+        else:
+            result.plot(options["plot"], dark=options["dark"])
+
+
+def export(result: Result, suffix: str) -> str:
+    """Return the path as CSV (cells, and metres where known) or as the JSON of a ``nav_msgs/Path``."""
+    path = result.path if result.path is not None else []
+    world = result.world
+    if suffix == ".csv":
+        head = "row,col" + (",x,y" if world is not None else "")
+        lines = [
+            f"{r},{c}" + (f",{world[i][0]:.6f},{world[i][1]:.6f}" if world is not None else "")
+            for i, (r, c) in enumerate(path)
+        ]
+        return "\n".join([head, *lines]) + "\n"
+    return json.dumps(_nav_path(result), indent=1) + "\n"
+
+
+def _nav_path(result: Result) -> dict[str, Any]:
+    """Return a ``nav_msgs/Path``: poses at the way-points, each looking along the way that leaves it.
+
+    A map without a place in the world counts its cells as metres from the lower-left corner.
+    """
+    points = result.world
+    if points is None and result.path is not None:
+        high = result.problem["height"]
+        points = result.path[:, ::-1] * (1.0, -1.0) + (0.5, high - 0.5)
+    header = {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}
+    poses: list[dict[str, Any]] = []
+    places = [] if points is None else points.tolist()
+    yaw = 0.0
+    for i, (x, y) in enumerate(places):
+        if i + 1 < len(places):
+            yaw = math.atan2(places[i + 1][1] - y, places[i + 1][0] - x)
+        turn = {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2), "w": math.cos(yaw / 2)}
+        pose = {"position": {"x": x, "y": y, "z": 0.0}, "orientation": turn}
+        poses.append({"header": header, "pose": pose})
+    return {"header": header, "poses": poses}
