@@ -1,8 +1,8 @@
 """The components that belong to no paper, registered through the same hook as everybody's."""
 
 from pathloom.kernel.archive import BestRefined
-from pathloom.kernel.evolution import Evolution, Generational
 from pathloom.kernel.evaluation import ReciprocalOfSum
+from pathloom.kernel.evolution import Evolution, Generational
 from pathloom.kernel.plugins import Add, hookimpl
 from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, Tournament
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement

@@ -8,9 +8,9 @@ from typing import Any
 
 from pathloom.errors import ConfigError, PathloomError
 from pathloom.kernel.compose import compose, freeze
-from pathloom.kernel.names import closest
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.run import check_seed
+from pathloom.naming import closest
 from pathloom.paths.maps import SUFFIXES, load_map
 from pathloom.paths.problem import CORNER_NAMES, PathProblem
 
@@ -118,7 +118,9 @@ def from_document(document: Mapping[str, Any], folder: Path | None = None) -> Co
     return Config(spec, {"use": DEFAULT_PLANNER, **planner}, seed, limit)
 
 
-def frozen(problem: PathProblem, map_name: str, planner: Planner, seed: int, time_limit: float | None) -> dict[str, Any]:
+def frozen(
+    problem: PathProblem, map_name: str, planner: Planner, seed: int, time_limit: float | None
+) -> dict[str, Any]:
     """Return the complete config of a run, every default filled in."""
     return {
         "problem": {
@@ -144,7 +146,9 @@ def parse_place(text: str, name: str, *, world: bool = False) -> Any:
         return tuple((float if world else int)(part) for part in parts)
     except ValueError:
         kind = "X,Y in metres" if world else "ROW,COL"
-        raise ConfigError(f"{name}: found {text!r}, allowed {kind} or a corner; {closest(text, CORNER_NAMES)}") from None
+        raise ConfigError(
+            f"{name}: found {text!r}, allowed {kind} or a corner; {closest(text, CORNER_NAMES)}"
+        ) from None
 
 
 def _is_file_name(name: str) -> bool:

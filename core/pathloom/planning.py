@@ -107,7 +107,12 @@ def plan(
         length = facts["metrics"]["length"] if path is not None else None
         facts["optimum"], facts["gap"] = _references(problem, length)
     return Result(
-        status=status, path=path, unrefined=unrefined, reason=reason, interrupted=finished.interrupted, **facts
+        status=status,
+        path=path,
+        unrefined=unrefined,
+        reason=reason,
+        interrupted=finished.interrupted,
+        **facts,
     )
 
 

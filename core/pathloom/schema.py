@@ -26,7 +26,11 @@ def schema_of_config(registry: Registry) -> dict[str, Any]:
             "anyOf": [
                 {"type": "string", "enum": names},
                 *({"$ref": f"#/$defs/{kind}:{e.name}"} for e in of_kind),
-                {"type": "object", "not": {"required": ["use"]}, "description": "refines what the slot holds"},
+                {
+                    "type": "object",
+                    "not": {"required": ["use"]},
+                    "description": "refines what the slot holds",
+                },
             ]
         }
         for entry in of_kind:
@@ -79,15 +83,23 @@ def _parameter(parameter: Parameter, kinds: list[str]) -> dict[str, Any]:
             "anyOf": [
                 {"type": "number", "minimum": 0},
                 {"type": "string"},
-                {"type": "object", "properties": {"use": {"type": "string"}, "weight": {"type": "number", "minimum": 0}}},
+                {
+                    "type": "object",
+                    "properties": {"use": {"type": "string"}, "weight": {"type": "number", "minimum": 0}},
+                },
             ]
         }
-        return {"type": "object", "additionalProperties": term, "minProperties": 1, "description": Objective.kind}
+        return {
+            "type": "object",
+            "additionalProperties": term,
+            "minProperties": 1,
+            "description": Objective.kind,
+        }
     return _of_type(parameter.hint)
 
 
 def _of_type(hint: Any) -> dict[str, Any]:
-    if hint is Any or isinstance(hint, type) and issubclass(hint, Component):
+    if hint is Any or (isinstance(hint, type) and issubclass(hint, Component)):
         return {}
     if typing.get_origin(hint) is typing.Annotated and typing.get_origin(typing.get_args(hint)[0]) is tuple:
         hint = typing.get_args(hint)[0]

@@ -70,4 +70,8 @@ class Imga(Evolution):
     mutation: Mutation | None = D8GeneMedian(rate=0.2)  # PM, section 5.1
     refinement: Repair | None = SequentialPointDeletion()
     archive: Archive | None = BestRefined(objective=Length())
-    termination: tuple[Termination, ...] = (MaxGenerations(limit=50), Stagnation(patience=40), WallTime(seconds=300.0))
+    termination: tuple[Termination, ...] = (
+        MaxGenerations(limit=50),
+        Stagnation(patience=40),
+        WallTime(seconds=300.0),
+    )

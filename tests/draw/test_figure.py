@@ -62,9 +62,7 @@ def test_cells_are_square_and_nothing_leaves_the_figure(shape, scene) -> None:
     ends = {"start": (rows - 1, 0), "goal": (0, cols - 1)}
     for history in (None, scene["history"]):
         path = np.array(list(ends.values()))
-        figure = path_figure(
-            walls, **ends, path=path, history=history, title="long " * 20, caption="words " * 20
-        )
+        figure = path_figure(walls, **ends, path=path, history=history, title="long " * 20, caption="words " * 20)
         box = figure.axes[0].get_window_extent()
         assert box.width / cols == pytest.approx(box.height / rows)
         around = figure.get_tightbbox()

@@ -16,15 +16,11 @@ def lines(*args, **options) -> list[str]:
     return [row[1:-1] for row in rows[1:-1]]
 
 
-@pytest.mark.parametrize(
-    "shape", [(1, 1), (10, 10), (22, 35), (23, 36), (43, 43), (1, 900), (900, 1), (307, 604)]
-)
+@pytest.mark.parametrize("shape", [(1, 1), (10, 10), (22, 35), (23, 36), (43, 43), (1, 900), (900, 1), (307, 604)])
 @pytest.mark.parametrize("room", [(72, 24), (30, 9), (3, 3)])
 def test_start_and_goal_are_there_and_the_picture_fits(shape, room) -> None:
     rows, cols = shape
-    text = picture(
-        np.zeros(shape, bool), start=(rows - 1, 0), goal=(0, cols - 1), width=room[0], height=room[1]
-    ).plain
+    text = picture(np.zeros(shape, bool), start=(rows - 1, 0), goal=(0, cols - 1), width=room[0], height=room[1]).plain
     assert "G" in text
     assert "S" in text or shape == (1, 1) or room == (3, 3)
     assert len(text.split("\n")) <= room[1]
@@ -80,9 +76,7 @@ def test_stray_cells_of_a_large_map_do_not_fill_it() -> None:
 
 
 def test_the_path_through_a_large_map_has_no_gap() -> None:
-    rows = lines(
-        np.zeros((300, 500), bool), start=(299, 0), goal=(0, 499), path=[(299, 0), (40, 200), (0, 499)]
-    )
+    rows = lines(np.zeros((300, 500), bool), start=(299, 0), goal=(0, 499), path=[(299, 0), (40, 200), (0, 499)])
     marks = np.argwhere([[sign != " " for sign in row] for row in rows])
     steps = marks[np.lexsort((-marks[:, 0], marks[:, 1]))]
     assert np.abs(np.diff(steps, axis=0)).max() == 1

@@ -62,9 +62,7 @@ def mutated(draw: st.DrawFn, valid: bytes) -> bytes:
     content = bytearray(valid)
     for _ in range(draw(st.integers(1, 4))):
         a, b = sorted(draw(st.tuples(*[st.integers(0, len(content))] * 2)))
-        patch = draw(
-            st.one_of(st.just(b""), st.binary(max_size=8), st.sampled_from(SPICE), st.just(content[a:b] * 2))
-        )
+        patch = draw(st.one_of(st.just(b""), st.binary(max_size=8), st.sampled_from(SPICE), st.just(content[a:b] * 2)))
         content[a : min(b, a + draw(st.integers(0, 12)))] = patch
     return bytes(content)
 
@@ -99,9 +97,7 @@ def test_the_files_that_are_broken_here_are_valid(folder: Path, name: str) -> No
 @pytest.mark.parametrize("name", VALID)
 @given(choice=st.data())
 @settings(deadline=None, max_examples=300, suppress_health_check=[HealthCheck.too_slow])
-def test_a_valid_file_with_mistakes_is_read_or_refused(
-    folder: Path, name: str, choice: st.DataObject
-) -> None:
+def test_a_valid_file_with_mistakes_is_read_or_refused(folder: Path, name: str, choice: st.DataObject) -> None:
     ends_well(folder / name, choice.draw(mutated(VALID[name])))
 
 

@@ -30,9 +30,7 @@ def test_dark_is_occupied_below_the_threshold(tmp_path: Path, name: str) -> None
 
 
 def test_jpeg_is_read(tmp_path: Path) -> None:
-    path = saved(
-        tmp_path, Image.fromarray(np.repeat([[0] * 16 + [255] * 16], 16, axis=0).astype(np.uint8)), "a.jpg"
-    )
+    path = saved(tmp_path, Image.fromarray(np.repeat([[0] * 16 + [255] * 16], 16, axis=0).astype(np.uint8)), "a.jpg")
     assert occupied(path) == [True] * 16 + [False] * 16
 
 

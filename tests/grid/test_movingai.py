@@ -27,9 +27,7 @@ def test_line_ends_and_blank_lines_at_the_end_do_not_matter(tmp_path: Path, text
 
 
 def test_water_is_blocked(tmp_path: Path) -> None:
-    assert read_map(written(tmp_path, "type octile\nheight 1\nwidth 2\nmap\nW.")).occupied.tolist() == [
-        [True, False]
-    ]
+    assert read_map(written(tmp_path, "type octile\nheight 1\nwidth 2\nmap\nW.")).occupied.tolist() == [[True, False]]
 
 
 @pytest.mark.parametrize(

@@ -21,10 +21,7 @@ def test_paths_may_be_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, refu
     monkeypatch.chdir(tmp_path)
     Path("a.csv").write_text("0,1\n")
     assert read_map("a.csv").name == "a.csv"
-    assert (
-        refused(read_map, "./b.csv")
-        == "./b.csv: found no such file, allowed an existing one; did you mean 'a.csv'?"
-    )
+    assert refused(read_map, "./b.csv") == "./b.csv: found no such file, allowed an existing one; did you mean 'a.csv'?"
 
 
 @pytest.mark.parametrize(

@@ -31,9 +31,7 @@ def classes(path: Path) -> str:
     """Return the first row: `#` occupied, `.` free, `?` unknown."""
     found = read_ros(path)
     pairs = zip(found.occupied[0], found.free[0], found.unknown[0], strict=True)
-    return "".join(
-        "#" if occupied else "." if free else "?" * bool(unknown) for occupied, free, unknown in pairs
-    )
+    return "".join("#" if occupied else "." if free else "?" * bool(unknown) for occupied, free, unknown in pairs)
 
 
 def test_trinary_is_the_mode_where_none_is_given(tmp_path: Path) -> None:
@@ -60,16 +58,11 @@ def test_scale_takes_transparent_pixels_for_unknown(tmp_path: Path) -> None:
 
 
 def test_raw_takes_the_grey_for_a_percentage(tmp_path: Path) -> None:
-    assert (
-        classes(written(tmp_path, YAML + "mode: raw\n", [[0, 19, 20, 65, 66, 100, 101, 255]])) == "..??##??"
-    )
+    assert classes(written(tmp_path, YAML + "mode: raw\n", [[0, 19, 20, 65, 66, 100, 101, 255]])) == "..??##??"
 
 
 def test_colour_counts_by_the_mean_of_its_channels(tmp_path: Path) -> None:
-    assert (
-        classes(written(tmp_path, YAML, [[[255, 0, 0], [0, 0, 0], [255, 255, 255], [255, 180, 183]]]))
-        == "##.."
-    )
+    assert classes(written(tmp_path, YAML, [[[255, 0, 0], [0, 0, 0], [255, 255, 255], [255, 180, 183]]])) == "##.."
     assert classes(written(tmp_path, YAML, [[[255, 180, 180]]])) == "?"
 
 
@@ -89,10 +82,7 @@ def test_the_map_lies_where_its_yaml_says(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", ["5e-1", "5.0e-1", "0.500000", "'5E-1'"])
 def test_numbers_may_be_written_as_ros_writes_them(tmp_path: Path, number: str) -> None:
-    assert (
-        read_map(written(tmp_path, YAML.replace("resolution: 0.5", f"resolution: {number}"))).resolution
-        == 0.5
-    )
+    assert read_map(written(tmp_path, YAML.replace("resolution: 0.5", f"resolution: {number}"))).resolution == 0.5
 
 
 @pytest.mark.parametrize(

@@ -42,9 +42,7 @@ def test_a_length_printed_short_is_as_precise_as_the_others(tmp_path: Path) -> N
 
 def test_fixed_decimals_bound_the_tolerance(tmp_path: Path) -> None:
     text = GOOD.replace("3.41421", "3.41").replace("\t5\n", "\t50.00\n")
-    assert [c.tolerance for c in read_scenario(written(tmp_path, text)).cases] == pytest.approx(
-        [5e-3] * 2, rel=1e-3
-    )
+    assert [c.tolerance for c in read_scenario(written(tmp_path, text)).cases] == pytest.approx([5e-3] * 2, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -69,9 +67,7 @@ def test_a_malformed_line_is_named(tmp_path, refused, old, new, says) -> None:
 
 
 def test_a_scenario_without_cases_is_refused(tmp_path, refused) -> None:
-    assert "found the end of the file, allowed one case" in refused(
-        read_scenario, written(tmp_path, "version 1\n")
-    )
+    assert "found the end of the file, allowed one case" in refused(read_scenario, written(tmp_path, "version 1\n"))
 
 
 @pytest.mark.parametrize("index", [-1, 2])

@@ -76,7 +76,11 @@ def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], Non
         if quiet or not console.is_terminal or time.perf_counter() - began < PATIENCE:
             return
         bar.start()
-        bar.update(task, completed=planner.progress(state), description=f"{planner.name}, generation {state.generation}")
+        bar.update(
+            task,
+            completed=planner.progress(state),
+            description=f"{planner.name}, generation {state.generation}",
+        )
 
     try:
         yield watch

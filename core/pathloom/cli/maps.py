@@ -119,7 +119,15 @@ def check(ctx: click.Context, files: tuple[str, ...]) -> None:
 @click.option("--seed", type=int, default=0, show_default=True, help="An integer from 0 on.")
 @click.option("--corners", default="strict", show_default=True, help="Policy under which the corners are connected.")
 @click.option("--out", metavar="FILE", help="Write .map, .csv, .txt or .npy instead of printing.")
-def make(family: str, size: int, density: float | None, obstacles: str | None, seed: int, corners: str, out: str | None) -> None:
+def make(
+    family: str,
+    size: int,
+    density: float | None,
+    obstacles: str | None,
+    seed: int,
+    corners: str,
+    out: str | None,
+) -> None:
     """Make a map of a family and print it in Moving AI's format, or write it to a file."""
     from pathloom.grid import write_map
     from pathloom.grid.movingai import render_movingai
@@ -144,12 +152,13 @@ def make(family: str, size: int, density: float | None, obstacles: str | None, s
 def _load(name: str, corners: str, unknown: str, threshold: int | None) -> Any:
     from typing import get_args
 
-    from pathloom.kernel.names import closest
+    from pathloom.naming import closest
     from pathloom.paths.context import Corners
     from pathloom.paths.maps import load_map
 
     if corners not in get_args(Corners):
-        raise ConfigError(f"--corners: found {corners!r}, allowed {', '.join(get_args(Corners))}; {closest(corners, get_args(Corners))}")
+        known = get_args(Corners)
+        raise ConfigError(f"--corners: found {corners!r}, allowed {', '.join(known)}; {closest(corners, known)}")
     if unknown not in ("occupied", "free"):
         raise ConfigError(f"--unknown: found {unknown!r}, allowed occupied or free")
     return load_map(name, unknown=unknown, threshold=threshold, corners=corners)  # type: ignore[arg-type]

@@ -25,7 +25,11 @@ PLOTS = (".png", ".svg", ".pdf", ".gif")
 @click.option("--goal", metavar="ROW,COL|CORNER", help="Where to go; default top-right.")
 @click.option("--world", is_flag=True, help="Start and goal are X,Y in metres.")
 @click.option("--corners", metavar="POLICY", help="strict (default), no-squeeze or allow.")
-@click.option("--radius", type=float, help="Radius of the robot, in metres where the map has a resolution, else in cells.")
+@click.option(
+    "--radius",
+    type=float,
+    help="Radius of the robot, in metres where the map has a resolution, else in cells.",
+)
 @click.option("--unknown", metavar="occupied|free", help="What unknown cells of a ROS map count as.")
 @click.option("--threshold", type=int, metavar="GREY", help="Grey (0 to 255) below which a pixel is an obstacle.")
 @click.option("--seed", type=int, help="An integer from 0 on; the same seed gives the same result.")
@@ -70,10 +74,10 @@ def command(ctx: click.Context, /, **options: Any) -> None:
                 table["problem"]["threshold"] = config.problem.threshold
             click.echo(tomli_w.dumps(table), nl=False)
             return
-        ctx.exit(_run(ctx, config, planner, problem, options, facts))
+        ctx.exit(_run(config, planner, problem, options, facts))
 
 
-def _run(ctx: click.Context, config: Config, planner: Any, problem: Any, options: dict[str, Any], facts: Any) -> int:
+def _run(config: Config, planner: Any, problem: Any, options: dict[str, Any], facts: Any) -> int:
     from pathloom.cli import console, report
     from pathloom.planning import plan
 
@@ -84,7 +88,7 @@ def _run(ctx: click.Context, config: Config, planner: Any, problem: Any, options
         def watch(state: Any) -> None:
             tell(state)
             if animated:
-                frames.append(report.frame(state, planner))
+                frames.append(report.frame(state))
 
         result = plan(
             problem,
@@ -136,7 +140,11 @@ def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
         case = scenario.case(options["case"] or 0)
         changes.update(map=str(scenario.map_path(case)), start=case.start, goal=case.goal, world=False)
         said = {"file": options["scenario"], "case": options["case"] or 0, "stated_optimum": case.optimum}
-        facts = {"scenario": scenario, "case": case, "said": {"scenario": {**said, "tolerance": case.tolerance}}}
+        facts = {
+            "scenario": scenario,
+            "case": case,
+            "said": {"scenario": {**said, "tolerance": case.tolerance}},
+        }
     if options["map_"] is not None:
         changes["map"] = options["map_"]
     for end in ("start", "goal"):

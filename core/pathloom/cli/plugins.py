@@ -21,8 +21,8 @@ def list_(kind: str | None, as_json: bool) -> None:
     from rich.table import Table
 
     from pathloom.cli import console
-    from pathloom.kernel.names import closest
     from pathloom.kernel.registry import default_registry
+    from pathloom.naming import closest
 
     registry = default_registry()
     broken = registry.broken()
@@ -70,11 +70,11 @@ def show(name: str, as_json: bool) -> None:
     from rich.table import Table
 
     from pathloom.cli import console
-    from pathloom.kernel.compose import freeze
     from pathloom.kernel.component import parameters
-    from pathloom.kernel.names import closest
+    from pathloom.kernel.compose import freeze
     from pathloom.kernel.planner import Planner
     from pathloom.kernel.registry import default_registry
+    from pathloom.naming import closest
 
     registry = default_registry()
     entries = list(registry.all_entries())
@@ -156,8 +156,8 @@ def cite(config: str) -> None:
     from pathlib import Path
 
     from pathloom.config import read_config
-    from pathloom.kernel.compose import compose
     from pathloom.kernel.component import members
+    from pathloom.kernel.compose import compose
     from pathloom.kernel.planner import Planner
     from pathloom.kernel.registry import default_registry
 
@@ -193,6 +193,7 @@ def _field_docs(component: type) -> dict[str, str]:
     """Return the docstrings that stand below the fields of a class and its bases."""
     import ast
     import textwrap
+    from itertools import pairwise
 
     docs: dict[str, str] = {}
     for base in reversed(component.__mro__):
@@ -201,7 +202,7 @@ def _field_docs(component: type) -> dict[str, str]:
         except (OSError, TypeError, SyntaxError):
             continue
         body = tree.body if isinstance(tree, ast.ClassDef) else []
-        for statement, text in zip(body, body[1:], strict=False):
+        for statement, text in pairwise(body):
             if (
                 isinstance(statement, ast.AnnAssign)
                 and isinstance(statement.target, ast.Name)

@@ -9,7 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from pathloom.grid.files import replace as write_file
+from pathloom.files import replace as write_file
 from pathloom.result import Result
 
 
@@ -37,8 +37,10 @@ def show(result: Result, console: Console) -> None:
 
 def _rows(result: Result) -> Iterator[tuple[str, str]]:
     said = result.problem
-    yield "map", f"{said['map']}, {said['height']} × {said['width']}, corners {said['corners']}" + (
-        f", radius {said['radius']:g}" if said["radius"] else ""
+    yield (
+        "map",
+        f"{said['map']}, {said['height']} × {said['width']}, corners {said['corners']}"
+        + (f", radius {said['radius']:g}" if said["radius"] else ""),
     )
     yield "planner", f"{result.planner}, seed {result.seed}: {result.status}"
     found = result.metrics
@@ -59,7 +61,10 @@ def _rows(result: Result) -> Iterator[tuple[str, str]]:
                 yield title, f"{best:.4f} cells" + (f", gap {100 * gap:+.3f} %" if gap is not None else "")
     objectives = ", ".join(f"{k} {v:.4g}" for k, v in result.objectives.items())
     if objectives:
-        yield "objectives", f"{objectives}" + (f"; fitness {result.fitness:.6g}" if result.fitness is not None else "")
+        yield (
+            "objectives",
+            f"{objectives}" + (f"; fitness {result.fitness:.6g}" if result.fitness is not None else ""),
+        )
     spent = result.budget
     if spent:
         phases = ", ".join(f"{k} {v:.3f}" for k, v in spent["phases"].items())
@@ -91,7 +96,7 @@ def advice(result: Result) -> str:
     return ""
 
 
-def frame(state: Any, planner: Any) -> Any:
+def frame(state: Any) -> Any:
     """Return one frame of the animation: generation, paths, best path and its fitness."""
     decode = state.problem.representation.decode
     paths = [decode(row) for row in state.population] if state.demes else []
@@ -129,7 +134,7 @@ def write(result: Result, options: dict[str, Any], frames: list[Any]) -> None:
 
 def export(result: Result, suffix: str) -> str:
     """Return the path as CSV (cells, and metres where known) or as the JSON of a ``nav_msgs/Path``."""
-    path = result.path if result.path is not None else []
+    path: Any = result.path if result.path is not None else []
     world = result.world
     if suffix == ".csv":
         head = "row,col" + (",x,y" if world is not None else "")

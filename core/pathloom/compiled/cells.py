@@ -18,14 +18,14 @@ TOWARDS = np.array([7, 0, 1, 6, -1, 2, 5, 4, 3], np.int64)
 """Direction of a step (dr, dc) at index 3 (dr + 1) + (dc + 1)."""
 
 
-@part("int64(int64, int64, int64)")
-def _middle(a, b, sign):  # type: ignore[no-untyped-def]
+@part("i8(i8, i8, i8)")
+def _middle(a, b, sign):
     """Return the midpoint of two coordinates, rounded down on an axis that points from start to goal."""
     return sign * ((sign * a + sign * b) // 2)
 
 
-@part("int64(int32[::1], int64, int32[::1])")
-def remove_loops(path, count, mark):  # type: ignore[no-untyped-def]
+@part("i8(i4[::1], i8, i4[::1])")
+def remove_loops(path, count, mark):
     """Cut out, in place, whatever lies between two visits of one cell; return the new count.
 
     ``mark`` (one entry a cell) is all zero before and after.
@@ -47,8 +47,8 @@ def remove_loops(path, count, mark):  # type: ignore[no-untyped-def]
     return kept
 
 
-@part("int64(int64, int64, uint8[::1], uint8[::1], int64, int64, int64, int64, int64, int64, boolean, int32[::1], int64, int64[::1], uint64[::1])")  # noqa: E501
-def connect(a, b, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, count, stack, state):  # type: ignore[no-untyped-def]
+@part("i8(i8, i8, u1[::1], u1[::1], i8, i8, i8, i8, i8, i8, b1, i4[::1], i8, i8[::1], u8[::1])")
+def connect(a, b, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, count, stack, state):
     """Append the cells from a (which the path ends with) to b by median insertion; return the new count or −1.
 
     While two cells are more than one step apart their midpoint is inserted; an
@@ -123,9 +123,26 @@ def connect(a, b, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarde
     return count
 
 
-@kernel("Tuple((int32[:, ::1], int64, int64))(int64, int64, int64, int64, int32[::1], uint8[::1], uint8[::1], int64, int64, int64, int64, int64, int64, boolean, boolean, uint64[::1])")  # noqa: E501
-def sample_by_insertion(  # type: ignore[no-untyped-def]
-    n, tries, start, goal, middle, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, loops, state
+@kernel(
+    "Tuple((i4[:, ::1], i8, i8))(i8, i8, i8, i8, i4[::1], u1[::1], u1[::1], i8, i8, i8, i8, i8, i8, b1, b1, u8[::1])"
+)
+def sample_by_insertion(
+    n,
+    tries,
+    start,
+    goal,
+    middle,
+    blocked,
+    moves,
+    rows,
+    cols,
+    sign_r,
+    sign_c,
+    reach,
+    cap,
+    guarded,
+    loops,
+    state,
 ):
     """Draw n distinct paths start – random cell of ``middle`` – goal, joined by median insertion.
 
@@ -146,13 +163,61 @@ def sample_by_insertion(  # type: ignore[no-untyped-def]
         count = 1
         if middle.shape[0] > 0:
             through = middle[below(state, middle.shape[0])]
-            count = connect(start, through, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, count, stack, state)  # noqa: E501
+            count = connect(
+                start,
+                through,
+                blocked,
+                moves,
+                rows,
+                cols,
+                sign_r,
+                sign_c,
+                reach,
+                cap,
+                guarded,
+                path,
+                count,
+                stack,
+                state,
+            )
             if count < 0:
                 failed += 1
                 continue
-            count = connect(through, goal, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, count, stack, state)  # noqa: E501
+            count = connect(
+                through,
+                goal,
+                blocked,
+                moves,
+                rows,
+                cols,
+                sign_r,
+                sign_c,
+                reach,
+                cap,
+                guarded,
+                path,
+                count,
+                stack,
+                state,
+            )
         else:
-            count = connect(start, goal, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, count, stack, state)  # noqa: E501
+            count = connect(
+                start,
+                goal,
+                blocked,
+                moves,
+                rows,
+                cols,
+                sign_r,
+                sign_c,
+                reach,
+                cap,
+                guarded,
+                path,
+                count,
+                stack,
+                state,
+            )
         if count < 0:
             failed += 1
             continue
@@ -178,8 +243,8 @@ def sample_by_insertion(  # type: ignore[no-untyped-def]
     return unpack(flat, begin, found), failed, again
 
 
-@kernel("Tuple((int32[:, ::1], int64))(int32[:, ::1], int64[:, ::1], int64, boolean, uint64[::1])")
-def exchange_tails(population, pairs, cells, loops, state):  # type: ignore[no-untyped-def]
+@kernel("Tuple((i4[:, ::1], i8))(i4[:, ::1], i8[:, ::1], i8, b1, u8[::1])")
+def exchange_tails(population, pairs, cells, loops, state):
     """Let each pair exchange what comes after a random cell that both visit, ends apart.
 
     Returns the population with the children in their parents' rows, and the
@@ -234,10 +299,8 @@ def exchange_tails(population, pairs, cells, loops, state):  # type: ignore[no-u
     return out, failed
 
 
-@kernel("Tuple((int32[:, ::1], int64))(int32[:, ::1], int64[::1], uint8[::1], uint8[::1], int64, int64, int64, int64, int64, int64, boolean, boolean, uint64[::1])")  # noqa: E501
-def mutate_neighbour(  # type: ignore[no-untyped-def]
-    population, chosen, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, loops, state
-):
+@kernel("Tuple((i4[:, ::1], i8))(i4[:, ::1], i8[::1], u1[::1], u1[::1], i8, i8, i8, i8, i8, i8, b1, b1, u8[::1])")
+def mutate_neighbour(population, chosen, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, loops, state):
     """Move one random interior cell of each chosen path to a free neighbour, and join it up again.
 
     The neighbour is none of the two cells beside it on the path. Both sides are
@@ -274,9 +337,41 @@ def mutate_neighbour(  # type: ignore[no-untyped-def]
                     moved = cell
             if moved >= 0:
                 copy(path, 0, row, 0, i)
-                made = connect(before, moved, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, i, stack, state)  # noqa: E501
+                made = connect(
+                    before,
+                    moved,
+                    blocked,
+                    moves,
+                    rows,
+                    cols,
+                    sign_r,
+                    sign_c,
+                    reach,
+                    cap,
+                    guarded,
+                    path,
+                    i,
+                    stack,
+                    state,
+                )
                 if made >= 0:
-                    made = connect(moved, after, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, made, stack, state)  # noqa: E501
+                    made = connect(
+                        moved,
+                        after,
+                        blocked,
+                        moves,
+                        rows,
+                        cols,
+                        sign_r,
+                        sign_c,
+                        reach,
+                        cap,
+                        guarded,
+                        path,
+                        made,
+                        stack,
+                        state,
+                    )
                 if made >= 0 and made + count - i - 2 <= path.shape[0]:
                     copy(path, made, row, i + 2, count - i - 2)
                     made += count - i - 2
@@ -301,8 +396,8 @@ def mutate_neighbour(  # type: ignore[no-untyped-def]
     return out, failed
 
 
-@kernel("float64[::1](int32[:, ::1], int64)")
-def lengths(population, cols):  # type: ignore[no-untyped-def]
+@kernel("f8[::1](i4[:, ::1], i8)")
+def lengths(population, cols):
     """Return the Euclidean length of each path, in cells."""
     per_row = 1.0 / cols
     found = np.zeros(population.shape[0])
@@ -329,8 +424,8 @@ def lengths(population, cols):  # type: ignore[no-untyped-def]
     return found
 
 
-@kernel("float64[::1](int32[:, ::1], uint8[::1], int64, int64)")
-def sum_over_nodes(population, table, skip_first, skip_last):  # type: ignore[no-untyped-def]
+@kernel("f8[::1](i4[:, ::1], u1[::1], i8, i8)")
+def sum_over_nodes(population, table, skip_first, skip_last):
     """Add up a table's entries over the nodes of each path, without some at its ends."""
     found = np.zeros(population.shape[0])
     for k in range(population.shape[0]):
@@ -342,8 +437,8 @@ def sum_over_nodes(population, table, skip_first, skip_last):  # type: ignore[no
     return found
 
 
-@kernel("float64[:, ::1](int32[:, ::1], int64)")
-def turns(population, cols):  # type: ignore[no-untyped-def]
+@kernel("f8[:, ::1](i4[:, ::1], i8)")
+def turns(population, cols):
     """Return for each path the number of its turns and the sum of their angles in radians.
 
     Directions are compared as integers; going straight back is a turn of π.
@@ -368,8 +463,8 @@ def turns(population, cols):  # type: ignore[no-untyped-def]
     return found
 
 
-@kernel("float64[::1](int32[:, ::1], int64, int64, int64, int64, float64[::1], boolean)")
-def quadrant_energy(population, cols, goal, sign_r, sign_c, price, by_angle):  # type: ignore[no-untyped-def]
+@kernel("f8[::1](i4[:, ::1], i8, i8, i8, i8, f8[::1], b1)")
+def quadrant_energy(population, cols, goal, sign_r, sign_c, price, by_angle):
     """Charge each turn by the quadrant of the direction that it takes: price[0] towards the goal, price[2] away.
 
     Quadrants are those of axes that point from start to goal; a direction along
@@ -407,8 +502,8 @@ def quadrant_energy(population, cols, goal, sign_r, sign_c, price, by_angle):  #
     return found
 
 
-@part("boolean(uint64[::1], uint64)")
-def _enter(table, value):  # type: ignore[no-untyped-def]
+@part("b1(u8[::1], u8)")
+def _enter(table, value):
     """Put a hash, not 0, into an open table; say whether it was new."""
     mask = np.uint64(table.shape[0] - 1)
     slot = (value >> np.uint64(20)) & mask
@@ -419,8 +514,8 @@ def _enter(table, value):  # type: ignore[no-untyped-def]
     return new
 
 
-@kernel("int64[::1](int32[:, ::1], int32[:, ::1])")
-def newcomers(population, before):  # type: ignore[no-untyped-def]
+@kernel("i8[::1](i4[:, ::1], i4[:, ::1])")
+def newcomers(population, before):
     """Return the index of the first of each different path that was not there before, told apart by a 64-bit hash."""
     n = population.shape[0]
     size = 4

@@ -13,11 +13,13 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
-from numba import njit
+from numba import njit as _njit
 
-F = TypeVar("F", bound=Callable[..., Any])
+Kernel = Callable[..., Any]
+
+njit: Any = _njit  # its annotations leave options out
 
 SHARED = ("random", "rows", "segments", "cells")
 """Modules that families draw on; those that are not loaded yet are counted with the family."""
@@ -59,14 +61,14 @@ def listening(listener: Listener) -> Iterator[None]:
         _listeners.remove(listener)
 
 
-def _compiled(signature: str, function: F, **options: Any) -> F:
+def _compiled(signature: str, function: Kernel) -> Kernel:
     began = time.perf_counter()
     try:
-        kernel = njit(signature, cache=True, nogil=True, no_cfunc_wrapper=True, **options)(function)
+        kernel = njit(signature, cache=True, nogil=True, no_cfunc_wrapper=True)(function)
     except RuntimeError as error:
         if "cannot cache" not in str(error):
             raise
-        kernel = njit(signature, nogil=True, no_cfunc_wrapper=True, **options)(function)
+        kernel = njit(signature, nogil=True, no_cfunc_wrapper=True)(function)
     _progress["done"] += 1
     stats = getattr(kernel, "stats", None)  # a plain function where compilation is switched off
     hit = stats is not None and sum(stats.cache_hits.values()) > 0
@@ -76,11 +78,15 @@ def _compiled(signature: str, function: F, **options: Any) -> F:
     return kernel  # type: ignore[no-any-return]
 
 
-def kernel(signature: str) -> Callable[[F], F]:
-    """Compile a function that Python calls."""
+def kernel(signature: str) -> Callable[[Kernel], Kernel]:
+    """Compile a function that Python calls.
+
+    Types go by numba's short names: i8 is int64, u1 uint8, f8 float64, b1
+    boolean; ``[::1]`` is a contiguous array.
+    """
     return lambda function: _compiled(signature, function)
 
 
-def part(signature: str) -> Callable[[F], F]:
+def part(signature: str) -> Callable[[Kernel], Kernel]:
     """Compile a function that only kernels call."""
     return lambda function: _compiled(signature, function)

@@ -13,8 +13,8 @@ _23, _41, _17, _45, _19 = (np.uint64(k) for k in (23, 41, 17, 45, 19))
 _11, _32 = np.uint64(11), np.uint64(32)
 
 
-@part("uint64(uint64[::1])")
-def next_word(state):  # type: ignore[no-untyped-def]
+@part("u8(u8[::1])")
+def next_word(state):
     """Return the next 64 random bits."""
     total = state[0] + state[3]
     word = ((total << _23) | (total >> _41)) + state[0]
@@ -28,13 +28,13 @@ def next_word(state):  # type: ignore[no-untyped-def]
     return word
 
 
-@part("int64(uint64[::1], int64)")
-def below(state, bound):  # type: ignore[no-untyped-def]
+@part("i8(u8[::1], i8)")
+def below(state, bound):
     """Return a random integer in [0, bound), bound < 2**31, by multiplication (bias below 2**-32)."""
     return np.int64(((next_word(state) >> _32) * np.uint64(bound)) >> _32)
 
 
-@part("float64(uint64[::1])")
-def uniform(state):  # type: ignore[no-untyped-def]
+@part("f8(u8[::1])")
+def uniform(state):
     """Return a random number in [0, 1)."""
     return np.float64(next_word(state) >> _11) * (1.0 / 9007199254740992.0)

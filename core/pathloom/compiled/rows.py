@@ -8,14 +8,14 @@ import numpy as np
 from pathloom.compiled.jit import part
 
 
-@part("int64(int64, float64)")
-def row_of(cell, per_row):  # type: ignore[no-untyped-def]
+@part("i8(i8, f8)")
+def row_of(cell, per_row):
     """Return the row of a cell, given 1 / cols: exact below 2**50 cells, and faster than a division."""
     return np.int64((cell + 0.5) * per_row)
 
 
-@part("int64(int32[::1])")
-def length_of(row):  # type: ignore[no-untyped-def]
+@part("i8(i4[::1])")
+def length_of(row):
     """Return how many cells a padded row holds: the first −1, by bisection."""
     low, high = 0, row.shape[0]
     while low < high:
@@ -27,8 +27,8 @@ def length_of(row):  # type: ignore[no-untyped-def]
     return low
 
 
-@part("int32[:, ::1](int64, int64)")
-def blank(n, width):  # type: ignore[no-untyped-def]
+@part("i4[:, ::1](i8, i8)")
+def blank(n, width):
     """Return a population of n empty rows."""
     out = np.empty((n, width), np.int32)
     for k in range(n):
@@ -37,15 +37,15 @@ def blank(n, width):  # type: ignore[no-untyped-def]
     return out
 
 
-@part("void(int32[::1], int64, int32[::1], int64, int64)")
-def copy(to, at, of, begin, count):  # type: ignore[no-untyped-def]
+@part("void(i4[::1], i8, i4[::1], i8, i8)")
+def copy(to, at, of, begin, count):
     """Copy ``count`` cells from ``of[begin:]`` to ``to[at:]``."""
     for i in range(count):
         to[np.uint64(at + i)] = of[np.uint64(begin + i)]  # unsigned: no test for negative indices
 
 
-@part("int64(int32[:, ::1])")
-def widest(population):  # type: ignore[no-untyped-def]
+@part("i8(i4[:, ::1])")
+def widest(population):
     """Return the greatest number of cells in a row, at least 1."""
     most = 1
     for k in range(population.shape[0]):
@@ -53,8 +53,8 @@ def widest(population):  # type: ignore[no-untyped-def]
     return most
 
 
-@part("int32[::1](int32[::1], int64, int64)")
-def with_room(flat, used, more):  # type: ignore[no-untyped-def]
+@part("i4[::1](i4[::1], i8, i8)")
+def with_room(flat, used, more):
     """Return the array itself if ``more`` cells fit behind the used ones, else a larger copy."""
     if used + more <= flat.shape[0]:
         return flat
@@ -63,8 +63,8 @@ def with_room(flat, used, more):  # type: ignore[no-untyped-def]
     return larger
 
 
-@part("int32[:, ::1](int32[::1], int64[::1], int64)")
-def unpack(flat, begin, n):  # type: ignore[no-untyped-def]
+@part("i4[:, ::1](i4[::1], i8[::1], i8)")
+def unpack(flat, begin, n):
     """Return n paths that stand one after the other as the rows of a padded array."""
     most = 1
     for k in range(n):
@@ -75,8 +75,8 @@ def unpack(flat, begin, n):  # type: ignore[no-untyped-def]
     return out
 
 
-@part("uint64(int32[::1], int64)")
-def hash_of(path, count):  # type: ignore[no-untyped-def]
+@part("u8(i4[::1], i8)")
+def hash_of(path, count):
     """Return a 64-bit hash of a path (FNV-1a with a shift mixed in)."""
     value = np.uint64(14695981039346656037)
     for i in range(count):

@@ -13,8 +13,8 @@ from pathloom.compiled.segments import segment_free
 SQRT2 = math.sqrt(2.0)
 
 
-@part("int64(int32[::1], int32[::1], float64[::1], int64, int64)")
-def _push(heap, place, key, size, item):  # type: ignore[no-untyped-def]
+@part("i8(i4[::1], i4[::1], f8[::1], i8, i8)")
+def _push(heap, place, key, size, item):
     """Put an item into the heap, or move it up after its key fell; return the size."""
     i = place[item]
     if i < 0:
@@ -32,8 +32,8 @@ def _push(heap, place, key, size, item):  # type: ignore[no-untyped-def]
     return size
 
 
-@part("int64(int32[::1], int32[::1], float64[::1], int64)")
-def _pop(heap, place, key, size):  # type: ignore[no-untyped-def]
+@part("i8(i4[::1], i4[::1], f8[::1], i8)")
+def _pop(heap, place, key, size):
     """Take the item with the least key out of the heap of this size; place[item] becomes −1."""
     least = heap[0]
     place[least] = -1
@@ -57,8 +57,8 @@ def _pop(heap, place, key, size):  # type: ignore[no-untyped-def]
     return least
 
 
-@kernel("Tuple((float64[::1], int32[::1]))(uint8[::1], float32[::1], int64, int64)")
-def tree(moves, price, cols, root):  # type: ignore[no-untyped-def]
+@kernel("Tuple((f8[::1], i4[::1]))(u1[::1], f4[::1], i8, i8)")
+def tree(moves, price, cols, root):
     """Return distances from the root to every cell and the tree's parents (Dijkstra 1959).
 
     A step costs its length times the mean price of its two cells; the distance
@@ -89,8 +89,8 @@ def tree(moves, price, cols, root):  # type: ignore[no-untyped-def]
     return distance, parent
 
 
-@kernel("int32[::1](uint8[::1], int64, int64, int64)")
-def octile_path(moves, cols, start, goal):  # type: ignore[no-untyped-def]
+@kernel("i4[::1](u1[::1], i8, i8, i8)")
+def octile_path(moves, cols, start, goal):
     """Return the cells of a shortest 8-connected path (A*, Hart et al. 1968); empty where there is none."""
     cells = moves.shape[0]
     distance = np.full(cells, np.inf)
@@ -132,8 +132,8 @@ def octile_path(moves, cols, start, goal):  # type: ignore[no-untyped-def]
     return np.empty(0, np.int32)
 
 
-@kernel("int32[:, ::1](int64, uint8[::1], int64, int64, int64, int32[::1], float64, float64, uint64[::1])")
-def sample_from_trees(n, moves, cols, start, goal, reachable, spread, detour, state):  # type: ignore[no-untyped-def]
+@kernel("i4[:, ::1](i8, u1[::1], i8, i8, i8, i4[::1], f8, f8, u8[::1])")
+def sample_from_trees(n, moves, cols, start, goal, reachable, spread, detour, state):
     """Draw n paths through random way-points, along two shortest trees over randomly priced cells.
 
     Every cell's price is uniform in [1, 1 + spread]. A way-point's detour
@@ -188,8 +188,8 @@ def sample_from_trees(n, moves, cols, start, goal, reachable, spread, detour, st
     return unpack(flat, begin, n)
 
 
-@kernel("Tuple((int32[::1], int64))(uint8[::1], int64, int64, int64, int64, float64[::1], float64[::1], float64, int64)")
-def any_angle_path(blocked, cols, start, goal, policy, before, after, upper, work):  # type: ignore[no-untyped-def]
+@kernel("Tuple((i4[::1], i8))(u1[::1], i8, i8, i8, i8, f8[::1], f8[::1], f8, i8)")
+def any_angle_path(blocked, cols, start, goal, policy, before, after, upper, work):
     """Return a shortest path over the centres of all free cells, and the work that it took.
 
     A* over the visibility graph of all cells, whose edges are tested only where

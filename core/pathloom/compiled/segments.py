@@ -18,8 +18,8 @@ from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.rows import blank, copy, length_of, row_of
 
 
-@part("boolean(uint8[::1], int64, int64, int64, int64, int64)")
-def segment_free(blocked, cols, a, dr, dc, policy):  # type: ignore[no-untyped-def]
+@part("b1(u1[::1], i8, i8, i8, i8, i8)")
+def segment_free(blocked, cols, a, dr, dc, policy):
     """Say whether the segment from cell a over (dr, dc) is free under a corner policy."""
     step_r = cols if dr > 0 else -cols
     step_c = 1 if dc > 0 else -1
@@ -45,17 +45,17 @@ def segment_free(blocked, cols, a, dr, dc, policy):  # type: ignore[no-untyped-d
             j += 1
             value += 2 * n
             cell += across
-        if value == limit and j <= m and policy != 0 and blocked[cell]:
-            # Touched from below; at the same corner lies the cell one further along and one back across.
-            if policy == 2 or blocked[cell + along - across]:
-                return False
+        touched = value == limit and j <= m and policy != 0 and blocked[cell]
+        # At the same corner lies the cell one further along and one back across.
+        if touched and (policy == 2 or blocked[cell + along - across]):
+            return False
         side -= 2 * m
         here += along
     return True
 
 
-@kernel("boolean[::1](uint8[::1], int64, int32[::1], int32[::1], int64)")
-def segments_free(blocked, cols, first, second, policy):  # type: ignore[no-untyped-def]
+@kernel("b1[::1](u1[::1], i8, i4[::1], i4[::1], i8)")
+def segments_free(blocked, cols, first, second, policy):
     """Test many segments: first[k] to second[k]."""
     free = np.empty(first.shape[0], np.bool_)
     per_row = 1.0 / cols
@@ -65,8 +65,8 @@ def segments_free(blocked, cols, first, second, policy):  # type: ignore[no-unty
     return free
 
 
-@kernel("int32[:, ::1](int32[:, ::1], uint8[::1], int64, int64, int64)")
-def delete_points(population, blocked, cols, policy, passes):  # type: ignore[no-untyped-def]
+@kernel("i4[:, ::1](i4[:, ::1], u1[::1], i8, i8, i8)")
+def delete_points(population, blocked, cols, policy, passes):
     """Drop every interior point whose neighbours see each other, in the order of the path.
 
     A point that is dropped leaves its predecessor to look at the next one.
@@ -108,8 +108,8 @@ def delete_points(population, blocked, cols, policy, passes):  # type: ignore[no
     return trimmed
 
 
-@part("float64(float64, float64, float64, float64, float64, float64)")
-def _point_to_segment(px, py, ax, ay, bx, by):  # type: ignore[no-untyped-def]
+@part("f8(f8, f8, f8, f8, f8, f8)")
+def _point_to_segment(px, py, ax, ay, bx, by):
     dx, dy = bx - ax, by - ay
     squared = dx * dx + dy * dy
     t = 0.0 if squared == 0.0 else ((px - ax) * dx + (py - ay) * dy) / squared
@@ -117,8 +117,8 @@ def _point_to_segment(px, py, ax, ay, bx, by):  # type: ignore[no-untyped-def]
     return math.hypot(px - ax - t * dx, py - ay - t * dy)
 
 
-@part("float64(int64, int64, int64, int64, int64, int64)")
-def _segment_to_cell(ar, ac, br, bc, r, c):  # type: ignore[no-untyped-def]
+@part("f8(i8, i8, i8, i8, i8, i8)")
+def _segment_to_cell(ar, ac, br, bc, r, c):
     """Return the distance between a segment and the unit square of a cell; 0 where they meet."""
     dr, dc = br - ar, bc - ac
     inside = min(ar, br) <= r <= max(ar, br) and min(ac, bc) <= c <= max(ac, bc)
@@ -134,8 +134,8 @@ def _segment_to_cell(ar, ac, br, bc, r, c):  # type: ignore[no-untyped-def]
     return best
 
 
-@kernel("float64[::1](int32[:, ::1], uint8[::1], float64[::1], int64, int64)")
-def clearances(population, blocked, distance, rows, cols):  # type: ignore[no-untyped-def]
+@kernel("f8[::1](i4[:, ::1], u1[::1], f8[::1], i8, i8)")
+def clearances(population, blocked, distance, rows, cols):
     """Return each path's least distance to the border of an obstacle cell; inf where there is none.
 
     ``distance`` holds for each cell the distance of its centre to the nearest
@@ -158,12 +158,12 @@ def clearances(population, blocked, distance, rows, cols):  # type: ignore[no-un
             ar, ac, br, bc = a // cols, a % cols, b // cols, b % cols
             steps = max(abs(br - ar), abs(bc - ac), 1)
             for s in range(steps + 1):
-                r = int(round(ar + (br - ar) * s / steps))
-                c = int(round(ac + (bc - ac) * s / steps))
+                r = round(ar + (br - ar) * s / steps)
+                c = round(ac + (bc - ac) * s / steps)
                 # the sample lies within 1 of every point of its stretch of the segment
                 if distance[r * cols + c] > best + 2.5:
                     continue
-                reach = int(math.ceil(best + 2.0))
+                reach = math.ceil(best + 2.0)
                 for rr in range(max(r - reach, 0), min(r + reach, rows - 1) + 1):
                     for cc in range(max(c - reach, 0), min(c + reach, cols - 1) + 1):
                         if blocked[rr * cols + cc]:
@@ -172,8 +172,8 @@ def clearances(population, blocked, distance, rows, cols):  # type: ignore[no-un
     return found
 
 
-@kernel("float64[::1](int32[:, ::1], uint8[::1], int64)")
-def flagged_cells(population, flag, cols):  # type: ignore[no-untyped-def]
+@kernel("f8[::1](i4[:, ::1], u1[::1], i8)")
+def flagged_cells(population, flag, cols):
     """Count for each path the distinct cells with a flag whose inside it crosses, both ends included."""
     n = population.shape[0]
     found = np.zeros(n)

@@ -8,8 +8,8 @@ from pathloom.compiled.random import below
 from pathloom.compiled.rows import copy, unpack, with_room
 
 
-@kernel("Tuple((int32[:, ::1], int64))(int64, int64, int64, int64, uint8[::1], int64, uint64[::1])")
-def sample_by_walking(n, steps, start, goal, moves, cols, state):  # type: ignore[no-untyped-def]
+@kernel("Tuple((i4[:, ::1], i8))(i8, i8, i8, i8, u1[::1], i8, u8[::1])")
+def sample_by_walking(n, steps, start, goal, moves, cols, state):
     """Draw n random walks from start to goal, loops cut out on the way.
 
     A walk longer than ``steps`` is given up; after n such failures nothing more

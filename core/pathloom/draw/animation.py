@@ -11,7 +11,7 @@ from pathloom.draw.colours import Theme, rgb, theme
 from pathloom.draw.raster import coarse
 from pathloom.draw.saving import check_suffix
 from pathloom.errors import PathloomError
-from pathloom.grid.files import FilePath, replace
+from pathloom.files import FilePath, replace
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -93,9 +93,7 @@ def animate(
 class Stage:
     """The map in pixels, on which each generation is drawn."""
 
-    def __init__(
-        self, walls: NDArray[np.bool_], closed: NDArray[np.bool_], ends: tuple[Cell, Cell], colours: Theme
-    ):
+    def __init__(self, walls: NDArray[np.bool_], closed: NDArray[np.bool_], ends: tuple[Cell, Cell], colours: Theme):
         from PIL import ImageFont
 
         rows, cols = walls.shape
@@ -111,9 +109,7 @@ class Stage:
         self.colours = colours
         self.palette = _palette(colours)
         self.tones = self._tones(walls, closed)
-        self.discs = [
-            self._disc(cell, letter, n) for n, (cell, letter) in enumerate(zip(ends, "SG", strict=True))
-        ]
+        self.discs = [self._disc(cell, letter, n) for n, (cell, letter) in enumerate(zip(ends, "SG", strict=True))]
 
     def draw(
         self, generation: int, population: Sequence[ArrayLike], best: ArrayLike | None, fitness: float | None
@@ -217,9 +213,7 @@ class Stage:
         side = 2 * radius + 1
         round_, text = Image.new("L", (side, side)), Image.new("L", (side, side))
         ImageDraw.Draw(round_).ellipse((0, 0, side - 1, side - 1), fill=255)
-        ImageDraw.Draw(text).text(
-            (radius + 0.5, radius + 0.5), letter, fill=255, font=self.small, anchor="mm"
-        )
+        ImageDraw.Draw(text).text((radius + 0.5, radius + 0.5), letter, fill=255, font=self.small, anchor="mm")
         steps = np.rint(np.asarray(text) / 255 * (STEPS - 1)).astype(np.uint8)
         top, left = (
             min(max(corner + at - radius, 0), length - side)

@@ -134,11 +134,7 @@ class Scene:
             cells[closed] = rgb(colours.closed)
             handles.append(Patch(facecolor=colours.closed, edgecolor="none", label="closed by radius"))
         cells[self.walls] = rgb(colours.wall)
-        box = (
-            (-0.5, cols - 0.5, rows - 0.5, -0.5)
-            if metres is None
-            else (0.0, cols * metres, 0.0, rows * metres)
-        )
+        box = (-0.5, cols - 0.5, rows - 0.5, -0.5) if metres is None else (0.0, cols * metres, 0.0, rows * metres)
         # With more cells than pixels, the nearest cell alone would tear thin walls.
         kind = "nearest" if max(rows, cols) <= 400 else "antialiased"
         axes.imshow(cells, extent=box, interpolation=kind, aspect="auto", origin="upper", zorder=0)
@@ -180,9 +176,7 @@ class Scene:
                 return
             line = Line2D(*self.place(cells), label=label, clip_on=False, **look)
             if halo:
-                line.set_path_effects(
-                    [Stroke(linewidth=look["linewidth"] + halo, foreground=colours.free), Normal()]
-                )
+                line.set_path_effects([Stroke(linewidth=look["linewidth"] + halo, foreground=colours.free), Normal()])
             axes.add_line(line)
             handles.append(line)
 
@@ -247,14 +241,9 @@ class Curves:
     @classmethod
     def read(cls, history: Mapping[str, Any]) -> "Curves | None":
         """Return the curves of a history, or ``None`` where there is nothing to draw."""
-        lists = {
-            k: _numbers(history.get(k))
-            for k in ("evaluations", "best", "generation_best", "mean", "diversity")
-        }
+        lists = {k: _numbers(history.get(k)) for k in ("evaluations", "best", "generation_best", "mean", "diversity")}
         known = {k: v for k, v in lists.items() if v is not None and len(v)}
-        fitness = [
-            k for k in ("best", "generation_best", "mean") if k in known and np.isfinite(known[k]).any()
-        ]
+        fitness = [k for k in ("best", "generation_best", "mean") if k in known and np.isfinite(known[k]).any()]
         n = min((len(v) for v in known.values()), default=0)
         if n < 2 or not fitness:
             return None
@@ -327,7 +316,7 @@ def _dress(axes: "Axes", colours: Theme) -> None:
         axis.label.set_color(colours.ink)
 
 
-def _lay_out(  # noqa: PLR0917 - one caller, above
+def _lay_out(
     figure: "Figure",
     scene: Scene,
     axes: "Axes",

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pathloom.errors import PathloomError
-from pathloom.grid.files import FilePath, closest, replace
+from pathloom.files import FilePath, replace
+from pathloom.naming import meant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,9 +41,7 @@ def save(figure: "Figure", file: FilePath) -> None:
 
     picture = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "pathloom", "pdf.fonttype": 42}):
-        figure.savefig(
-            picture, format=suffix[1:], dpi=DPI, metadata=METADATA[suffix], facecolor=figure.get_facecolor()
-        )
+        figure.savefig(picture, format=suffix[1:], dpi=DPI, metadata=METADATA[suffix], facecolor=figure.get_facecolor())
     replace(file, picture.getvalue())
 
 
@@ -58,5 +57,5 @@ def check_suffix(file: FilePath, allowed: "dict[str, Any] | tuple[str, ...]") ->
     if suffix in allowed:
         return suffix
     found = f"the suffix {suffix!r}" if suffix else "no suffix"
-    hint = closest(suffix, allowed)
+    hint = meant(suffix, allowed)
     raise PathloomError(f"{file}: found {found}, allowed {' '.join(allowed)}{'; ' if hint else ''}{hint}")

@@ -5,6 +5,7 @@ separating axes in Python's and numpy's integers, straight from the definition.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,7 @@ def validate(path: ArrayLike, problem: PathProblem) -> str | None:
             return f"leaves the map at {cell}"
         if occupied[tuple(cell)]:
             return f"stands on an obstacle at {cell}"
-    for a, b in zip(cells[:-1].tolist(), cells[1:].tolist(), strict=True):
+    for a, b in pairwise(cells.tolist()):
         met = _meet(a, b, occupied)
         where = f"between {a} and {b}"
         if met.crossed:
@@ -58,7 +59,7 @@ def validate(path: ArrayLike, problem: PathProblem) -> str | None:
 def contacts(path: ArrayLike, problem: PathProblem) -> Contacts:
     """Return how often a path (k, 2) crosses, touches and squeezes between obstacles."""
     cells = np.asarray(path).tolist()
-    met = [_meet(a, b, problem.context.occupied) for a, b in zip(cells[:-1], cells[1:], strict=True)]
+    met = [_meet(a, b, problem.context.occupied) for a, b in pairwise(cells)]
     return Contacts(sum(m.crossed for m in met), sum(m.touches for m in met), sum(m.squeezes for m in met))
 
 

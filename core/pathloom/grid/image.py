@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.errors import MapError
-from pathloom.grid.files import LARGEST_MAP, FilePath, content, refusal
+from pathloom.files import LARGEST_MAP, FilePath, content, refusal
 from pathloom.grid.occupancy import OccupancyGrid
 
 if TYPE_CHECKING:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from pathloom.grid.files import LARGEST_MAP, FilePath, closest, lines, refusal, shown
+from pathloom.files import LARGEST_MAP, FilePath, lines, refusal, shown
 from pathloom.grid.occupancy import OccupancyGrid
+from pathloom.naming import meant
 
 FREE = ".GS"
 """Ground, also written G, and swamp, which a walker enters from ordinary ground."""
@@ -63,7 +64,7 @@ def _size(path: FilePath, text: list[str]) -> tuple[int, int]:
         wanted = {"type": "'type octile'", "map": "'map'"}.get(key, f"'{key} N'")
         if word != key or (key == "map" and value):
             found = shown(line) if number <= len(text) else "the end of the file"
-            raise refusal(path, f"line {number}", found, wanted, closest(word, [key]) if word != key else "")
+            raise refusal(path, f"line {number}", found, wanted, meant(word, [key]) if word != key else "")
         values.append(value.strip())
     kind, height, width = values[:3]
     if kind != "octile":

@@ -183,9 +183,7 @@ def _cells(occupied: ArrayLike) -> NDArray[np.bool_]:
             wrong = np.argwhere((array != 0) & (array != 1))  # NaN equals neither
         if wrong.size:
             row, col = (int(index) for index in wrong[0])
-            raise MapError(
-                f"map: row {row}, col {col}: found {array[row, col]}, allowed 0 (free), 1 (occupied)"
-            )
+            raise MapError(f"map: row {row}, col {col}: found {array[row, col]}, allowed 0 (free), 1 (occupied)")
     return np.array(array, dtype=np.bool_, order="C", copy=True, subok=False)
 
 

@@ -5,12 +5,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from pathloom.errors import MapError
-from pathloom.grid.files import FilePath, closest, content, refusal, shown
+from pathloom.files import FilePath, content, refusal, shown
 from pathloom.grid.image import read_image
 from pathloom.grid.movingai import read_movingai
 from pathloom.grid.occupancy import OccupancyGrid
 from pathloom.grid.ros import check_unknown, read_ros
 from pathloom.grid.table import read_npy, read_table
+from pathloom.naming import meant
 
 SUFFIXES = {
     ".map": "movingai",
@@ -82,5 +83,5 @@ def _format(path: FilePath) -> str:
     if suffix == ".scen":
         found, hint = "a scenario", "a scenario names its map"
     else:
-        hint = closest(suffix, SUFFIXES)
+        hint = meant(suffix, SUFFIXES)
     raise refusal(path, "", found, f"a map: {' '.join(SUFFIXES)}", hint)

@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.errors import MapError
-from pathloom.grid.files import FilePath, closest, neighbour, one_line, refusal, shown, text
+from pathloom.files import FilePath, neighbour, one_line, refusal, shown, text
 from pathloom.grid.image import Picture, read_picture
 from pathloom.grid.occupancy import OccupancyGrid, Origin
+from pathloom.naming import meant
 
 REQUIRED = ("image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh")
 
@@ -108,7 +109,7 @@ def read_ros(path: FilePath) -> RosMap:
     for key in REQUIRED:
         if key not in keys:
             others = [other for other in keys if isinstance(other, str) and other not in REQUIRED]
-            near = closest(key, others)
+            near = meant(key, others)
             raise refusal(path, key, "no such key", f"a file with {', '.join(REQUIRED)}", near)
     resolution = _number(path, "resolution", keys["resolution"])
     if resolution <= 0.0:
@@ -117,14 +118,12 @@ def read_ros(path: FilePath) -> RosMap:
     negate = keys["negate"]
     if not isinstance(negate, bool | int) or negate not in (0, 1):
         raise refusal(path, "negate", shown(negate), "0 or 1")
-    occupied_thresh, free_thresh = (
-        _share(path, key, keys[key]) for key in ("occupied_thresh", "free_thresh")
-    )
+    occupied_thresh, free_thresh = (_share(path, key, keys[key]) for key in ("occupied_thresh", "free_thresh"))
     if free_thresh > occupied_thresh:
         raise refusal(path, "free_thresh", f"{free_thresh}", f"at most occupied_thresh, {occupied_thresh}")
     mode = keys.get("mode", "trinary")
     if not isinstance(mode, str) or mode.lower() not in MODES:
-        hint = closest(mode, MODES) if isinstance(mode, str) else ""
+        hint = meant(mode, MODES) if isinstance(mode, str) else ""
         raise refusal(path, "mode", shown(mode), ", ".join(MODES), hint)
     picture = read_picture(_image_path(path, keys["image"]))
     occupied, free = MODES[mode.lower()](picture, bool(negate), occupied_thresh, free_thresh)
@@ -179,9 +178,7 @@ def _mapping(path: FilePath) -> dict[Any, Any]:
         where = f"line {mark.line + 1}, column {mark.column + 1}" if mark is not None else ""
         raise refusal(path, where, f"a mistake ({error.problem})", "plain YAML") from error
     except Exception as error:  # constructors of dates and numbers raise errors of their own
-        raise refusal(
-            path, "", f"a value that YAML cannot take ({one_line(str(error))})", "plain YAML"
-        ) from error
+        raise refusal(path, "", f"a value that YAML cannot take ({one_line(str(error))})", "plain YAML") from error
     if not isinstance(loaded, dict):
         raise refusal(path, "", f"a {type(loaded).__name__}", f"keys and values: {', '.join(REQUIRED)}")
     return loaded

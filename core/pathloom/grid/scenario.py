@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 
-from pathloom.grid.files import FilePath, lines, neighbour, refusal, shown
+from pathloom.files import FilePath, lines, neighbour, refusal, shown
 from pathloom.grid.occupancy import OccupancyGrid
 
 FIELDS = (
@@ -119,15 +119,12 @@ def read_scenario(path: FilePath) -> Scenario:
     text = lines(path)
     if not re.fullmatch(r"version\s+1(\.0)?\s*", text[0]):
         raise refusal(path, "line 1", shown(text[0]), "'version 1'")
-    rows = [
-        (number, _fields(path, number, line)) for number, line in enumerate(text[1:], start=2) if line.strip()
-    ]
+    rows = [(number, _fields(path, number, line)) for number, line in enumerate(text[1:], start=2) if line.strip()]
     if not rows:
         raise refusal(path, "line 2", "the end of the file", "one case or more")
     half_units = _half_units([fields[-1] for _, fields in rows])
     cases = (
-        _case(path, number, fields, half_unit)
-        for (number, fields), half_unit in zip(rows, half_units, strict=True)
+        _case(path, number, fields, half_unit) for (number, fields), half_unit in zip(rows, half_units, strict=True)
     )
     return Scenario(Path(path), tuple(cases))
 

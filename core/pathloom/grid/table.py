@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from pathloom.errors import MapError
-from pathloom.grid.files import LARGEST_MAP, FilePath, content, lines, refusal, shown
+from pathloom.files import LARGEST_MAP, FilePath, content, lines, refusal, shown
 from pathloom.grid.occupancy import OccupancyGrid
 
 VALUES = {"0": False, "1": True}
@@ -35,9 +35,7 @@ def read_table(path: FilePath) -> OccupancyGrid:
         try:
             row = [VALUES[word] for word in words]
         except KeyError:
-            row = [
-                _value(path, f"line {number}, column {col}", word) for col, word in enumerate(words, start=1)
-            ]
+            row = [_value(path, f"line {number}, column {col}", word) for col, word in enumerate(words, start=1)]
         if not row or (rows and len(row) != len(rows[0])):
             allowed = f"{len(rows[0])}, as in line 1" if rows else "one value or more"
             raise refusal(path, f"line {number}", f"{len(row)} values", allowed)
@@ -78,9 +76,7 @@ def read_npy(path: FilePath) -> OccupancyGrid:
         raise refusal(path, "header", f"{count} cells", f"at most {LARGEST_MAP}")
     values = stream.read()
     if len(values) != count * dtype.itemsize:
-        raise refusal(
-            path, "", f"{len(values)} bytes of cells", f"{count * dtype.itemsize}, as the header says"
-        )
+        raise refusal(path, "", f"{len(values)} bytes of cells", f"{count * dtype.itemsize}, as the header says")
     if dtype.kind == "b":  # any byte but 0 would pass for true
         dtype = np.dtype(np.uint8)
     cells = np.frombuffer(values, dtype=dtype).reshape(shape, order="F" if by_columns else "C")

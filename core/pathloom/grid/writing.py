@@ -3,10 +3,11 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from pathloom.grid.files import FilePath, closest, refusal, replace, shown
+from pathloom.files import FilePath, refusal, replace, shown
 from pathloom.grid.movingai import render_movingai
 from pathloom.grid.occupancy import OccupancyGrid
 from pathloom.grid.table import render_npy, render_table
+from pathloom.naming import meant
 
 RENDERERS: dict[str, Callable[[OccupancyGrid], bytes]] = {
     ".map": render_movingai,
@@ -37,5 +38,5 @@ def write_map(grid: OccupancyGrid, path: FilePath) -> None:
     suffix = Path(path).suffix.lower()
     if suffix not in RENDERERS:
         found = f"the suffix {shown(suffix)}" if suffix else "no suffix"
-        raise refusal(path, "", found, " ".join(RENDERERS), closest(suffix, RENDERERS))
+        raise refusal(path, "", found, " ".join(RENDERERS), meant(suffix, RENDERERS))
     replace(path, RENDERERS[suffix](grid))

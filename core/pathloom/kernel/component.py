@@ -12,7 +12,6 @@ import re
 import types
 import typing
 from collections.abc import Iterator, Mapping
-from functools import cache
 from typing import Annotated, Any, ClassVar, Literal, Union
 
 import msgspec
@@ -147,17 +146,22 @@ class Parameter:
         return checked
 
 
-@cache
-def parameters(component: type[Component]) -> tuple[Parameter, ...]:
+_known: dict[type, tuple[Parameter, ...]] = {}
+
+
+def parameters(component: type) -> tuple[Parameter, ...]:
     """Return the parameters of a component class, in the order of its fields."""
+    if component in _known:
+        return _known[component]
     hints = typing.get_type_hints(component, include_extras=True)
     found = []
-    for field in dataclasses.fields(component):  # type: ignore[arg-type]
+    for field in dataclasses.fields(component):
         default = field.default
         if field.default_factory is not dataclasses.MISSING:
             default = field.default_factory()
         found.append(Parameter(field.name, hints[field.name], default))
-    return tuple(found)
+    _known[component] = tuple(found)
+    return _known[component]
 
 
 def members(component: Component) -> Iterator[tuple[str, Component]]:

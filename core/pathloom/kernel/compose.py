@@ -12,9 +12,9 @@ from typing import Any, TypeVar
 from pathloom.errors import ConfigError
 from pathloom.kernel.component import Component, Parameter, parameters
 from pathloom.kernel.evaluation import Objective, Term, Terms
-from pathloom.kernel.names import closest
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import Registry, default_registry
+from pathloom.naming import closest
 
 NONE = "none"
 """What a config writes into a slot that is to be empty."""
@@ -22,9 +22,7 @@ NONE = "none"
 C = TypeVar("C", bound=Component)
 
 
-def compose(
-    planner: "str | Mapping[str, Any] | Planner", *, registry: Registry | None = None, **slots: Any
-) -> Planner:
+def compose(planner: "str | Mapping[str, Any] | Planner", *, registry: Registry | None = None, **slots: Any) -> Planner:
     """Return a planner with some of its slots or parameters changed.
 
     Parameters
@@ -102,7 +100,9 @@ def override(component: C, path: str, value: Any, registry: Registry | None = No
             having = [i for i, m in enumerate(current) if rest in (p.name for p in parameters(type(m)))]
             if len(having) != 1:
                 names = [m.name for m in current]
-                raise ConfigError(f"{here}: no {parameter.slots.kind} here is called {chosen!r}; {closest(chosen, names)}")
+                raise ConfigError(
+                    f"{here}: no {parameter.slots.kind} here is called {chosen!r}; {closest(chosen, names)}"
+                )
             index = having[0]
         changed = list(current)
         changed[index] = override(changed[index], field, value, registry, here)
@@ -137,9 +137,7 @@ def _frozen(value: Any, registry: Registry) -> Any:
     return value
 
 
-def _assemble(
-    component: type[C], table: Mapping[str, Any], base: C | None, registry: Registry, where: str
-) -> C:
+def _assemble(component: type[C], table: Mapping[str, Any], base: C | None, registry: Registry, where: str) -> C:
     """Build a component of the fields in a table; what the table leaves out is the base's or the default."""
     fields: dict[str, Any] = {}
     for key, value in table.items():
@@ -151,7 +149,9 @@ def _assemble(
     if base is None:
         for parameter in parameters(component):
             if parameter.required and parameter.name not in fields:
-                raise ConfigError(f"{where}: {registry.name_of(component)!r} needs {parameter.name!r}: {parameter.allowed}")
+                raise ConfigError(
+                    f"{where}: {registry.name_of(component)!r} needs {parameter.name!r}: {parameter.allowed}"
+                )
     else:
         fields = {**{p.name: getattr(base, p.name) for p in parameters(component)}, **fields}
     try:
@@ -176,7 +176,9 @@ def _value(
         return _keep_the_slots_own(built, current, given) if is_new else built
     if kind := parameter.slots:
         listed = value if isinstance(value, Sequence) and not isinstance(value, str) else [value]
-        return tuple(build(kind, v, registry, f"{where}[{i}]" if len(listed) > 1 else where) for i, v in enumerate(listed))
+        return tuple(
+            build(kind, v, registry, f"{where}[{i}]" if len(listed) > 1 else where) for i, v in enumerate(listed)
+        )
     if parameter.hint is Terms:
         return _terms(value, registry, where)
     if isinstance(value, list):

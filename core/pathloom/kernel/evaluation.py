@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +72,7 @@ class Terms(tuple[Term, ...]):
 
     __slots__ = ()
 
-    def __new__(cls, terms: Iterable[Term] | Mapping[str, Objective | tuple[Objective, float]] = ()) -> "Terms":
+    def __new__(cls, terms: Iterable[Term] | Mapping[str, Objective | tuple[Objective, float]] = ()) -> Self:
         """Make the terms from a mapping of labels to objectives, or to pairs with a weight."""
         if isinstance(terms, Mapping):
             pairs = ((k, v if isinstance(v, tuple) else (v, 1.0)) for k, v in terms.items())
@@ -86,7 +86,9 @@ class Terms(tuple[Term, ...]):
             raise ConfigError(f"{owner}: objectives is a table with at least one term; got none")
         for term in terms:
             if not np.isfinite(term.weight) or term.weight < 0:
-                raise ConfigError(f"{owner}: objectives.{term.label}: weight is a number in [0, inf); got {term.weight!r}")
+                raise ConfigError(
+                    f"{owner}: objectives.{term.label}: weight is a number in [0, inf); got {term.weight!r}"
+                )
         return terms
 
     @property
@@ -117,7 +119,7 @@ def measure(objectives: Sequence[Objective], population: Population, problem: Pr
         found = np.asarray(objective.measure(population, problem))
         if found.shape != (len(population),):
             raise PluginError(
-                f"objective {objective.name!r}: wanted shape ({len(population)},), one value for each row; got {found.shape}"
+                f"objective {objective.name!r}: wanted shape ({len(population)},), one value a row; got {found.shape}"
             )
         values[:, column] = found
     if np.isnan(values).any():

@@ -148,7 +148,12 @@ class Evolution(Planner):
         return Outcome(row, best)
 
     def vary(
-        self, population: Population, fitness: Floats, problem: Problem, progress: float, rng: np.random.Generator
+        self,
+        population: Population,
+        fitness: Floats,
+        problem: Problem,
+        progress: float,
+        rng: np.random.Generator,
     ) -> Population:
         """Return the offspring of selected parents; ``fitness`` (n,) is the parents'."""
         if self.crossover is not None:

@@ -96,8 +96,10 @@ def _check_component(component: object) -> None:
         raise PluginError(f"registers {shown}, which inherits from no kind of component")
     if not component.kind:
         raise PluginError(f"registers {shown}, which has no kind: inherit from Sampling, Mutation, …")
-    if not is_dataclass(component) or not component.__dataclass_params__.frozen:  # type: ignore[attr-defined]
-        raise PluginError(f"registers {shown}, which is not a frozen dataclass: add @dataclass(frozen=True, kw_only=True)")
+    if not is_dataclass(component) or not component.__dataclass_params__.frozen:
+        raise PluginError(
+            f"registers {shown}, which is not a frozen dataclass: add @dataclass(frozen=True, kw_only=True)"
+        )
     if isabstract(component):
         lacks = ", ".join(sorted(component.__abstractmethods__))
         raise PluginError(f"registers {shown}, which lacks {lacks}")

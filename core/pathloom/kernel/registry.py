@@ -13,8 +13,8 @@ from typing import TypeVar
 
 from pathloom.errors import ConfigError, PluginError
 from pathloom.kernel.component import Component
-from pathloom.kernel.names import closest
 from pathloom.kernel.plugins import Source, components_of, installed
+from pathloom.naming import closest
 
 CORE = "core"
 """Namespace of the components that need no prefix."""

@@ -91,6 +91,8 @@ def run(
     searched = time.perf_counter() - began
     phases.setdefault("sampling", searched)
     phases["evolution"] = searched - phases["sampling"]
-    outcome = Outcome(None, reason="interrupted before the first individual") if state is None else planner.result(state)
+    outcome = (
+        Outcome(None, reason="interrupted before the first individual") if state is None else planner.result(state)
+    )
     phases["refinement"] = time.perf_counter() - began - searched
     return Run(state, outcome, phases, interrupted)

@@ -30,7 +30,7 @@ class Roulette(Selection):
         if wheel[-1] <= 0:
             return rng.integers(len(fitness), size=n)
         spun = np.searchsorted(wheel, rng.random(n) * wheel[-1], side="right")
-        return np.minimum(spun, len(fitness) - 1)
+        return np.asarray(np.minimum(spun, len(fitness) - 1))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +43,7 @@ class Tournament(Selection):
 
     def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
         drawn = rng.integers(len(fitness), size=(n, self.size))
-        return drawn[np.arange(n), np.argmax(fitness[drawn], axis=1)]
+        return np.asarray(drawn[np.arange(n), np.argmax(fitness[drawn], axis=1)])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ always leads to the same next one.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.random.bit_generator import ISeedSequence
@@ -26,7 +26,7 @@ class Deme:
     fitness: Floats
 
     def __len__(self) -> int:
-        """The number of individuals."""
+        """Return the number of individuals."""
         return len(self.fitness)
 
     def best(self) -> int:
@@ -61,7 +61,9 @@ class History:
     diversity: tuple[float, ...] = ()
     """Share of distinct individuals."""
 
-    def extended(self, evaluations: int, best: float, generation_best: float, mean: float, diversity: float) -> "History":
+    def extended(
+        self, evaluations: int, best: float, generation_best: float, mean: float, diversity: float
+    ) -> "History":
         """Return the history with one more generation."""
         return History(
             (*self.evaluations, evaluations),
@@ -116,6 +118,6 @@ class _Unseeded(ISeedSequence):
 
 def generator(random: Mapping[str, Any]) -> np.random.Generator:
     """Return a generator that goes on where the recorded one stood."""
-    bits = np.random.PCG64(_Unseeded())
+    bits: Any = np.random.PCG64(cast("Any", _Unseeded()))
     bits.state = random
     return np.random.Generator(bits)

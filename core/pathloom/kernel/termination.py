@@ -18,7 +18,7 @@ class Termination(Component, ABC):
     def done(self, state: State) -> bool:
         """Say whether the run is over."""
 
-    def progress(self, state: State) -> float:  # noqa: ARG002 - most conditions cannot tell
+    def progress(self, state: State) -> float:
         """Return the used share of the budget, in [0, 1], as far as it can be known."""
         return 0.0
 

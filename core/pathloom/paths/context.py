@@ -51,7 +51,10 @@ class Context:
     @property
     def signs(self) -> tuple[int, int]:
         """Directions (row, column) from start to goal, +1 or −1; −1 and +1 where they share a row or a column."""
-        dr, dc = self.goal // self.cols - self.start // self.cols, self.goal % self.cols - self.start % self.cols
+        dr, dc = (
+            self.goal // self.cols - self.start // self.cols,
+            self.goal % self.cols - self.start % self.cols,
+        )
         return (1 if dr > 0 else -1), (-1 if dc < 0 else 1)
 
     @cached_property
@@ -134,5 +137,4 @@ class Context:
 
 
 def _flat(table: NDArray[np.generic]) -> Bytes:
-    flat = np.ascontiguousarray(table, np.uint8).ravel()
-    return flat
+    return np.ascontiguousarray(table, np.uint8).ravel()

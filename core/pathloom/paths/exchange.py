@@ -10,7 +10,12 @@ from pathloom.paths.problem import PathProblem
 
 
 def exchange_tails(
-    population: Population, pairs: Indices, problem: PathProblem, rng: np.random.Generator, *, loops: bool = False
+    population: Population,
+    pairs: Indices,
+    problem: PathProblem,
+    rng: np.random.Generator,
+    *,
+    loops: bool = False,
 ) -> Population:
     """Let each pair (k, 2) exchange what follows a random cell that both visit between start and goal.
 

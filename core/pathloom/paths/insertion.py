@@ -52,7 +52,7 @@ def sample_by_insertion(
     if 0 < len(found) < n:
         count("samples repeated", n - len(found))
         return np.ascontiguousarray(found[np.arange(n) % len(found)])
-    return found
+    return np.asarray(found)
 
 
 def mutate_neighbour(

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from pathloom.errors import MapError, PathloomError
 from pathloom.grid import OccupancyGrid, labels, read_map
 from pathloom.kernel.component import Component, Count, Whole
-from pathloom.kernel.names import closest
 from pathloom.kernel.registry import Registry, default_registry
+from pathloom.naming import closest
 from pathloom.paths.context import Corners
 
 SUFFIXES = (".map", ".yaml", ".yml", ".png", ".pgm", ".bmp", ".jpg", ".jpeg", ".csv", ".txt", ".npy")
@@ -80,9 +80,11 @@ class MapFamily(Map, ABC):
     def cells(self) -> int:
         """Return how many obstacle cells are asked for."""
         area = self.size * self.size
-        return self._number(self.amount.rstrip("%"), area if "%" not in self.amount else 100) * (
-            area if "%" in self.amount else 100
-        ) // 100
+        return (
+            self._number(self.amount.rstrip("%"), area if "%" not in self.amount else 100)
+            * (area if "%" in self.amount else 100)
+            // 100
+        )
 
     def spacing(self) -> int:
         """Return the cells between two walls."""

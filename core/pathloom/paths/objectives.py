@@ -65,4 +65,4 @@ class Clearance(Objective):
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem).context
         found = compiled.segments.clearances(population, it.blocked, it.distance, it.rows, it.cols)
-        return -np.minimum(found, np.hypot(it.rows, it.cols))
+        return np.asarray(-np.minimum(found, np.hypot(it.rows, it.cols)))

@@ -61,7 +61,9 @@ class PathCrossover(Crossover):
     works_on: ClassVar[str] = "cells"
 
     @abstractmethod
-    def cross_one(self, mother: Path, father: Path, problem: PathProblem, rng: np.random.Generator) -> tuple[Path, Path]:
+    def cross_one(
+        self, mother: Path, father: Path, problem: PathProblem, rng: np.random.Generator
+    ) -> tuple[Path, Path]:
         """Return two children of two paths (k, 2); return a parent for "no child"."""
 
     def cross(self, population: Population, pairs: Indices, problem: Problem, rng: np.random.Generator) -> Population:
@@ -128,7 +130,7 @@ class PathObjective(Objective):
 
 def path_problem(problem: Problem) -> PathProblem:
     """Return the problem, which is one of paths: the planner has seen to that before the first step."""
-    assert isinstance(problem, PathProblem), "operators on cells are only composed for path problems"  # noqa: S101
+    assert isinstance(problem, PathProblem), "operators on cells are only composed for path problems"
     return problem
 
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from pathloom.errors import ProblemError
 from pathloom.grid import OccupancyGrid, inflate
-from pathloom.kernel.names import closest
 from pathloom.kernel.problem import Problem
+from pathloom.naming import closest
 from pathloom.paths.cell_paths import CellPaths
 from pathloom.paths.context import Context, Corners
 
@@ -99,7 +99,9 @@ class PathProblem(Problem):
         height, width = self.grid.shape
         if isinstance(value, str):
             if value not in CORNER_NAMES:
-                raise ProblemError(f"{end}: found {value!r}, allowed ROW,COL or a corner; {closest(value, CORNER_NAMES)}")
+                raise ProblemError(
+                    f"{end}: found {value!r}, allowed ROW,COL or a corner; {closest(value, CORNER_NAMES)}"
+                )
             return (height - 1 if "bottom" in value else 0), (width - 1 if "right" in value else 0)
         try:
             row, col = value

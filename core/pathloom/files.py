@@ -1,17 +1,16 @@
 """Read and replace files so that whatever is wrong with one becomes a single line."""
 
 import contextlib
-import difflib
 import os
 import re
 import reprlib
 import secrets
 import stat
-from collections.abc import Iterable
 from itertools import islice
 from pathlib import Path
 
 from pathloom.errors import MapError
+from pathloom.naming import meant
 
 LARGEST_FILE = 1 << 29
 """Bytes (512 MiB) beyond which a file is refused unread; no map in use comes near."""
@@ -38,7 +37,7 @@ def refusal(path: FilePath, where: str, found: str, allowed: str, hint: str = ""
     found, allowed
         What stands there, what may stand there.
     hint
-        What was probably meant, from `closest`; may be empty.
+        What was probably meant, from `meant`; may be empty.
     """
     place = f"{where}: " if where else ""
     ending = f"; {hint}" if hint else ""
@@ -59,12 +58,6 @@ def shown(value: object) -> str:
         return f"a huge {type(value).__name__}"
 
 
-def closest(word: str, known: Iterable[str]) -> str:
-    """Return a hint for a misspelt word, empty when nothing is near."""
-    near = difflib.get_close_matches(word, list(known), n=1)
-    return f"did you mean {near[0]!r}?" if near else ""
-
-
 def neighbour(path: FilePath, suffix: str = "") -> str:
     """Return a hint to the file of the same folder, with that suffix, named most like `path`."""
     sought = Path(path)
@@ -73,7 +66,7 @@ def neighbour(path: FilePath, suffix: str = "") -> str:
             names = [entry.name for entry in islice(entries, MOST_NAMES) if entry.name.endswith(suffix)]
     except (OSError, ValueError):
         return ""
-    return closest(sought.name, names)
+    return meant(sought.name, names)
 
 
 def content(path: FilePath, first: int = -1) -> bytes:
