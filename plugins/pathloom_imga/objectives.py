@@ -36,7 +36,8 @@ class QuadrantEnergy(Objective):
     """E, eq. (7) and fig. 3: a penalty for every turn, by the quadrant of the direction that it takes.
 
     The paper's quadrants suppose a goal at the upper right; here the axes point
-    from start to goal, and a direction along an axis belongs to the better side.
+    from start to goal, and a direction along an axis belongs to the quadrant of the
+    goal if it goes that way, to the opposite one if it goes back.
     Eq. (7) sums to n, but at the last node there is no direction to take.
     """
 

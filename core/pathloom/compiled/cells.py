@@ -467,8 +467,8 @@ def turns(population, cols):
 def quadrant_energy(population, cols, goal, sign_r, sign_c, price, by_angle):
     """Charge each turn by the quadrant of the direction that it takes: price[0] towards the goal, price[2] away.
 
-    Quadrants are those of axes that point from start to goal; a direction along
-    an axis counts to the better side. ``by_angle``: by the angle between the
+    Quadrants are those of axes that point from start to goal; along an axis,
+    towards the goal counts as its quadrant, away as the opposite one. ``by_angle``: by the angle between the
     direction and the goal instead, up to 45°, up to 135°, beyond.
     """
     per_row = 1.0 / cols

@@ -73,7 +73,7 @@ class Component:
     def __post_init__(self) -> None:
         for parameter in parameters(type(self)):
             value = getattr(self, parameter.name)
-            checked = parameter.check(value, self.name)
+            checked = parameter.check(value, f"{self.name}: {parameter.name}")
             if checked is not value:
                 object.__setattr__(self, parameter.name, checked)
 
@@ -117,7 +117,7 @@ class Parameter:
         """The values allowed, in words."""
         return describe(self.hint)
 
-    def check(self, value: Any, owner: str) -> Any:
+    def check(self, value: Any, where: str) -> Any:
         """Return the value, converted where that loses nothing.
 
         Raises
@@ -131,18 +131,18 @@ class Parameter:
                 value = tuple(value)
             found = (value if isinstance(value, tuple) else (value,)) if many else (value,)
             if not (value is None and self.optional) and not all(isinstance(v, kind) for v in found):
-                raise ConfigError(f"{owner}: {self.name} takes {self.allowed}; got {value!r}")
+                raise ConfigError(f"{where} takes {self.allowed}; got {value!r}")
             return value
         if hasattr(self.hint, "__checked__"):
-            return self.hint.__checked__(value, owner)
+            return self.hint.__checked__(value, where)
         if isinstance(value, np.generic):
             value = value.item()
         try:
             checked = msgspec.convert(value, self.hint, strict=True)
         except (msgspec.ValidationError, TypeError) as error:
-            raise ConfigError(f"{owner}: {self.name} is {self.allowed}; got {value!r}") from error
+            raise ConfigError(f"{where} is {self.allowed}; got {value!r}") from error
         if isinstance(checked, float) and math.isnan(checked):
-            raise ConfigError(f"{owner}: {self.name} is {self.allowed}; got {value!r}")
+            raise ConfigError(f"{where} is {self.allowed}; got {value!r}")
         return checked
 
 

@@ -145,7 +145,7 @@ def _assemble(component: type[C], table: Mapping[str, Any], base: C | None, regi
             continue
         parameter = _parameter(component, key, where, registry)
         current = getattr(base, key) if base is not None else parameter.default
-        fields[key] = _value(parameter, value, current, component, registry, f"{where}.{key}" if where else key)
+        fields[key] = _value(parameter, value, current, registry, f"{where}.{key}" if where else key)
     if base is None:
         for parameter in parameters(component):
             if parameter.required and parameter.name not in fields:
@@ -162,9 +162,7 @@ def _assemble(component: type[C], table: Mapping[str, Any], base: C | None, regi
         raise ConfigError(f"{where}: {registry.name_of(component)}: {error}") from error
 
 
-def _value(
-    parameter: Parameter, value: Any, current: Any, owner: type[Component], registry: Registry, where: str
-) -> Any:
+def _value(parameter: Parameter, value: Any, current: Any, registry: Registry, where: str) -> Any:
     if kind := parameter.slot:
         if parameter.optional and (value is None or value == NONE):
             return None
@@ -183,7 +181,7 @@ def _value(
         return _terms(value, registry, where)
     if isinstance(value, list):
         value = tuple(value)
-    return parameter.check(value, owner.name)
+    return parameter.check(value, where)
 
 
 def _keep_the_slots_own(built: C, current: Any, given: Mapping[str, Any]) -> C:

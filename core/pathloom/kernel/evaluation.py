@@ -80,15 +80,13 @@ class Terms(tuple[Term, ...]):
         return super().__new__(cls, terms)
 
     @classmethod
-    def __checked__(cls, value: Any, owner: str) -> "Terms":
-        terms = value if isinstance(value, Terms) else cls(value)
+    def __checked__(cls, value: Any, where: str) -> Self:
+        terms = value if isinstance(value, cls) else cls(value)
         if not terms:
-            raise ConfigError(f"{owner}: objectives is a table with at least one term; got none")
+            raise ConfigError(f"{where} is a table with at least one term; got none")
         for term in terms:
             if not np.isfinite(term.weight) or term.weight < 0:
-                raise ConfigError(
-                    f"{owner}: objectives.{term.label}: weight is a number in [0, inf); got {term.weight!r}"
-                )
+                raise ConfigError(f"{where}.{term.label}: weight is a number in [0, inf); got {term.weight!r}")
         return terms
 
     @property
