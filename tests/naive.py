@@ -129,7 +129,7 @@ def _squared_distance(p: tuple[Fraction, Fraction], a: Cell, b: Cell) -> Fractio
 def without_points(blocked: np.ndarray, path: Cells, corners: str, passes: int) -> Cells:
     """Drop points whose neighbours see each other, front to back; 0 passes: until nothing changes."""
     kept = [path[0]]
-    for point, following in zip(path[1:], path[2:], strict=False):
+    for point, following in pairwise(path[1:]):
         if not segment_free(blocked, kept[-1], following, corners):
             kept.append(point)
     shorter = (*kept, path[-1]) if len(path) > 1 else path
@@ -175,10 +175,8 @@ def quadrant_energy(path: Cells, goal: Cell, signs: Cell, price: tuple[float, ..
         to_r, to_c = goal[0] - point[0], goal[1] - point[1]
         if by_angle:
             dot = dr * to_r + dc * to_c
-            steep = 2 * dot**2 >= (dr**2 + dc**2) * (to_r**2 + to_c**2)  # within 45° of the goal, or of its opposite
-            which = (
-                0 if dot >= 0 and steep else 2 if steep and 2 * dot**2 > (dr**2 + dc**2) * (to_r**2 + to_c**2) else 1
-            )
+            steep = 2 * dot**2 - (dr**2 + dc**2) * (to_r**2 + to_c**2)  # 0 at 45° and at 135°
+            which = 0 if dot >= 0 and steep >= 0 else 2 if dot < 0 and steep > 0 else 1
         else:
             ahead = (dr * signs[0] >= 0, dc * signs[1] >= 0)
             behind = (dr * signs[0] <= 0, dc * signs[1] <= 0)
@@ -188,8 +186,7 @@ def quadrant_energy(path: Cells, goal: Cell, signs: Cell, price: tuple[float, ..
 
 
 def newcomers(paths: list[Cells], before: list[Cells]) -> list[int]:
-    known = set(before)
-    return [k for k, path in enumerate(paths) if path not in known and not known.add(path)]  # type: ignore[func-returns-value]
+    return [k for k, path in enumerate(paths) if path not in [*before, *paths[:k]]]
 
 
 def without_loops(path: Cells) -> Cells:
@@ -241,9 +238,10 @@ def legal_steps(blocked: np.ndarray, cell: Cell, corners: str) -> Iterator[tuple
 
 
 def octile_distances(blocked: np.ndarray, start: Cell, corners: str) -> dict[Cell, float]:
-    return dijkstra(
-        start, lambda cell: ((there, math.dist(cell, there)) for _, there in legal_steps(blocked, cell, corners))
-    )
+    def edges(cell: Cell) -> Iterator[tuple[Cell, float]]:
+        return ((there, math.dist(cell, there)) for _, there in legal_steps(blocked, cell, corners))
+
+    return dijkstra(start, edges)
 
 
 def any_angle_distances(blocked: np.ndarray, start: Cell, corners: str) -> dict[Cell, float]:
@@ -306,7 +304,7 @@ def paths_on(shape: tuple[int, int], max_size: int = 7) -> st.SearchStrategy[Cel
     return sequences.map(lambda path: tuple(c for k, c in enumerate(path) if k == 0 or c != path[k - 1]))
 
 
-words = st.lists(st.integers(0, 2**64 - 1), min_size=4, max_size=4).filter(any)
+words = st.integers(0, 2**32).map(lambda seed: np.random.default_rng(seed).bit_generator.random_raw(4).tolist())
 """States of the generator in the kernels."""
 
 

@@ -6,7 +6,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pathloom.errors import ConfigError, PathloomError
+from pathloom.errors import ConfigError, MapError, PathloomError, ProblemError
+from pathloom.files import neighbour, reason
+from pathloom.grid import OccupancyGrid
 from pathloom.kernel.compose import compose, freeze
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.run import check_seed
@@ -36,23 +38,42 @@ class ProblemSpec:
     unknown: str = "occupied"
     threshold: int | None = None
 
+    def __post_init__(self) -> None:
+        """Check what can be checked without the map; `PathProblem` checks the rest."""
+        grey = self.threshold
+        for key, allowed, fits in (
+            ("map", "a name or a file", isinstance(self.map, str)),
+            ("world", "true or false", isinstance(self.world, bool)),
+            ("unknown", "'occupied' or 'free'", self.unknown in ("occupied", "free")),
+            ("threshold", "an integer from 0 to 255", grey is None or (type(grey) is int and 0 <= grey <= 255)),
+        ):
+            if not fits:
+                raise ConfigError(f"{key}: found {getattr(self, key)!r}, allowed {allowed}")
+
     def build(self) -> PathProblem:
         """Read the map and return the problem."""
-        if self.unknown not in ("occupied", "free"):
-            raise ConfigError(f"problem.unknown: found {self.unknown!r}, allowed 'occupied' or 'free'")
-        if not isinstance(self.map, str):
-            raise ConfigError(f"problem.map: found {self.map!r}, allowed a name or a file")
         grid = load_map(
             self.map,
             unknown=self.unknown,  # type: ignore[arg-type]
             threshold=self.threshold,
             corners=self.corners if self.corners in ("allow", "no-squeeze") else "strict",  # type: ignore[arg-type]
         )
-        start, goal = self.start, self.goal
-        if self.world:
-            start = start if isinstance(start, str) else grid.cell_at(*_two_numbers("start", start))
-            goal = goal if isinstance(goal, str) else grid.cell_at(*_two_numbers("goal", goal))
+        start, goal = (self._cell(grid, end) for end in ("start", "goal"))
         return PathProblem(grid, start=start, goal=goal, radius=self.radius, corners=self.corners)  # type: ignore[arg-type]
+
+    def _cell(self, grid: OccupancyGrid, end: str) -> Any:
+        """Return start or goal as a cell or the name of a corner."""
+        place = getattr(self, end)
+        if not self.world or isinstance(place, str):
+            return place
+        try:
+            x, y = (float(v) for v in place)
+        except (TypeError, ValueError):
+            raise ConfigError(f"{end}: found {place!r}, allowed x and y in metres") from None
+        try:
+            return grid.cell_at(x, y)
+        except MapError as error:
+            raise ProblemError(f"{end}: {error}") from error
 
 
 @dataclass(frozen=True)
@@ -84,9 +105,13 @@ def read_config(path: str | Path) -> Config:
     try:
         with Path(path).open("rb") as file:
             document = tomllib.load(file)
+    except FileNotFoundError:
+        hint = neighbour(path, ".toml")
+        found = f"{text}: found no such file, allowed a config in TOML"
+        raise ConfigError(f"{found}; {hint}" if hint else found) from None
     except OSError as error:
-        raise ConfigError(f"{text}: {error.strerror or error}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ConfigError(f"{text}: found an unreadable file ({reason(error)}), allowed a config in TOML") from error
+    except (ValueError, RecursionError) as error:  # no TOML, no UTF-8, a huge number or a deep nest
         raise ConfigError(f"{text}: no TOML: {' '.join(str(error).split())}") from error
     try:
         return from_document(document, Path(path).parent)
@@ -103,8 +128,11 @@ def from_document(document: Mapping[str, Any], folder: Path | None = None) -> Co
     problem, planner, run = (_table(document, name) for name in SECTIONS)
     _known("problem", problem, list(ProblemSpec.__dataclass_fields__))
     _known("run", run, RUN)
-    spec = ProblemSpec(**problem)
-    if folder is not None and "map" in problem and isinstance(spec.map, str) and _is_file_name(spec.map):
+    try:
+        spec = ProblemSpec(**problem)
+    except ConfigError as error:
+        raise ConfigError(f"problem.{error}") from error
+    if folder is not None and "map" in problem and _is_file_name(spec.map):
         spec = replace(spec, map=str(folder / spec.map))
     limit = run.get("time_limit")
     if limit == "none":
@@ -153,14 +181,6 @@ def parse_place(text: str, name: str, *, world: bool = False) -> Any:
 
 def _is_file_name(name: str) -> bool:
     return Path(name).suffix.lower() in SUFFIXES or "/" in name or "\\" in name
-
-
-def _two_numbers(end: str, value: Any) -> tuple[float, float]:
-    try:
-        x, y = (float(v) for v in value)
-    except (TypeError, ValueError):
-        raise ConfigError(f"problem.{end}: found {value!r}, allowed x and y in metres") from None
-    return x, y
 
 
 def _table(document: Mapping[str, Any], name: str) -> dict[str, Any]:

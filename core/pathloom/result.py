@@ -126,7 +126,7 @@ class Result:
             path=self.path,
             unrefined=self.unrefined,
             history=self.history,
-            title=f"{self.planner} on {self.problem['map']}",
+            title=f"{self.planner} on {self.problem['map'].replace(chr(92), '/').rpartition('/')[2]}",
             caption=self._caption(),
             resolution=problem.grid.resolution if problem.grid.origin is not None else None,
             dark=dark,
@@ -138,7 +138,8 @@ class Result:
     def _caption(self) -> str:
         if not self.found:
             return self.reason
-        parts = [f"length {self.length:.4f}", f"{self.metrics['turns']} turns", f"seed {self.seed}"]
+        turns = self.metrics["turns"]
+        parts = [f"length {self.length:.4f}", f"{turns} turn{'s' * (turns != 1)}", f"seed {self.seed}"]
         gap = (self.gap or {}).get("any_angle")
         if gap is not None:
             parts.append(f"{100 * gap:.2f} % above the any-angle optimum")

@@ -50,7 +50,7 @@ class Imga(Evolution):
     assumptions: ClassVar[tuple[str, ...]] = (
         "Termination (4.4) is read as: 50 generations, or 40 without a change of the best, or 5 minutes.",
         "The penalty of 5 (6) counts once for a node, not once for each obstacle beside it.",
-        "Quadrants (7) belong to axes that point from start to goal; along an axis, towards is the first, away the third.",
+        "Quadrants (7) belong to axes from start to goal; along an axis, towards is the first, away the third.",
         "Median insertion (4.1) is guarded against going in circles, and cuts loops out.",
         "Pairs for crossover are drawn at random from the selected individuals.",
         "There is no elitism; the best individual ever seen is archived, as algorithm 1 implies.",

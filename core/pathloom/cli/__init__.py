@@ -1,8 +1,10 @@
 """The command line. Commands are loaded when they are called, so that ``--help`` is instant."""
 
+import io
 import os
 import sys
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
@@ -17,8 +19,26 @@ COMMANDS = {
 DONE, BAD_INPUT, NO_PATH, INTERRUPTED, DEFECT = 0, 2, 3, 130, 1
 
 
-class Commands(click.Group):
-    """A group that knows its commands by name and imports one when it is called."""
+class Group(click.Group):
+    """A group that shows its help when it is called alone, and says what an unknown command probably meant."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        if not args:
+            click.echo(ctx.get_help())
+            ctx.exit()
+        return super().parse_args(ctx, args)
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
+        known = self.list_commands(ctx)
+        if args and args[0] not in known and not args[0].startswith("-"):
+            from pathloom.naming import closest
+
+            raise click.UsageError(f"no command is called {args[0]!r}; {closest(args[0], known)}", ctx)
+        return super().resolve_command(ctx, args)
+
+
+class Commands(Group):
+    """The group of all commands: it knows them by name and imports one when it is called."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -27,13 +47,6 @@ class Commands(click.Group):
         if cmd_name not in COMMANDS:
             return None
         return import_module(f"pathloom.cli.{cmd_name}").command  # type: ignore[no-any-return]
-
-    def resolve_command(self, ctx: click.Context, args: list[str]) -> Any:
-        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
-            from pathloom.naming import closest
-
-            raise click.UsageError(f"no command is called {args[0]!r}; {closest(args[0], COMMANDS)}")
-        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Commands"):
@@ -53,6 +66,7 @@ def main() -> None:
     """Run the command line and exit with its code: one line for whatever goes wrong."""
     from pathloom.errors import PathloomError
 
+    _make_output_safe()
     try:
         code = pathloom.main(standalone_mode=False)
         sys.stdout.flush()
@@ -69,6 +83,8 @@ def main() -> None:
         code = DONE
     except OSError as error:
         code = _say(f"{error.filename or 'output'}: {error.strerror or error}", BAD_INPUT)
+    except MemoryError as error:
+        code = _say(f"found too little memory: {error or 'none is left'}; take a smaller map or population", BAD_INPUT)
     except Exception as error:
         if os.environ.get("PATHLOOM_TRACEBACK"):
             raise
@@ -77,6 +93,17 @@ def main() -> None:
     sys.exit(code or DONE)
 
 
+def _make_output_safe() -> None:
+    """Let printing never fail for want of a stream, which the caller may have closed, or of a letter in its encoding."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
+
+
 def _say(message: str, code: int) -> int:
-    print("pathloom: " + " ".join(message.split()), file=sys.stderr)
+    from pathloom.files import one_line
+
+    print(one_line("pathloom: " + " ".join(message.split())), file=sys.stderr)
     return code

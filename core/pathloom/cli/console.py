@@ -18,9 +18,19 @@ PATIENCE = 0.7
 """Seconds of work before progress is shown."""
 
 
+class _Console(Console):
+    """A console that prints text as it is: brackets and colons in a file's name are no markup."""
+
+    def __init__(self, *, stderr: bool = False) -> None:
+        super().__init__(stderr=stderr, highlight=False, markup=False, emoji=False)
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError  # rich would exit with 1 here; whoever stopped reading has seen enough
+
+
 def out() -> Console:
     """Return the console for results. Piped, it neither colours nor folds its lines at 80 columns."""
-    console = Console(highlight=False, soft_wrap=False)
+    console = _Console()
     if not console.is_terminal:
         console.width = 120
     return console
@@ -28,12 +38,17 @@ def out() -> Console:
 
 def err() -> Console:
     """Return the console for progress and messages."""
-    return Console(stderr=True, highlight=False)
+    return _Console(stderr=True)
+
+
+def json_line(document: Any) -> str:
+    """Return one line of JSON in ASCII, which every terminal, pipe and file can take."""
+    return json.dumps(document, allow_nan=False) + "\n"
 
 
 def print_json(document: Any) -> None:
     """Print one JSON document, and nothing else, on standard output."""
-    sys.stdout.write(json.dumps(document, allow_nan=False, ensure_ascii=False) + "\n")
+    sys.stdout.write(json_line(document))
 
 
 @contextmanager
@@ -61,7 +76,7 @@ def compiling(*, quiet: bool) -> Iterator[None]:
         with listening(tell):
             yield
     finally:
-        bar.stop()
+        _stop(bar)
 
 
 @contextmanager
@@ -85,9 +100,15 @@ def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], Non
     try:
         yield watch
     finally:
-        bar.stop()
+        _stop(bar)
 
 
 def _bar(console: Console) -> Progress:
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     return Progress(*columns, console=console, transient=True)
+
+
+def _stop(bar: Progress) -> None:
+    """Take a bar away that was shown; rich would print a blank line for one that was not."""
+    if bar.live.is_started:
+        bar.stop()

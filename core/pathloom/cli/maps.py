@@ -5,11 +5,11 @@ from typing import Any
 import click
 import numpy as np
 
-from pathloom.cli import BAD_INPUT
+from pathloom.cli import BAD_INPUT, Group
 from pathloom.errors import ConfigError, PathloomError
 
 
-@click.group("maps")
+@click.group("maps", cls=Group)
 def command() -> None:
     """List, show, check and make maps."""
 
@@ -47,7 +47,7 @@ def list_(as_json: bool) -> None:
 @click.argument("map_", metavar="NAME|FILE")
 @click.option("--corners", default="strict", help="Policy under which free cells are connected.")
 @click.option("--unknown", default="occupied", help="What unknown cells of a ROS map count as.")
-@click.option("--threshold", type=int, help="Grey below which a pixel is an obstacle.")
+@click.option("--threshold", type=click.IntRange(0, 255), help="Grey below which a pixel is an obstacle.")
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
 def show(map_: str, corners: str, unknown: str, threshold: int | None, as_json: bool) -> None:
     """Show a map and what it consists of."""
@@ -107,7 +107,7 @@ def check(ctx: click.Context, files: tuple[str, ...]) -> None:
             console.out().print(f"{file}: ok, {said}", soft_wrap=True)
         except PathloomError as error:
             failed = True
-            console.err().print(f"pathloom: {error}", soft_wrap=True, markup=False)
+            console.err().print(f"pathloom: {error}", soft_wrap=True)
     ctx.exit(BAD_INPUT if failed else 0)
 
 
@@ -129,6 +129,9 @@ def make(
     out: str | None,
 ) -> None:
     """Make a map of a family and print it in Moving AI's format, or write it to a file."""
+    from math import isqrt
+
+    from pathloom.files import LARGEST_MAP
     from pathloom.grid import write_map
     from pathloom.grid.movingai import render_movingai
 
@@ -141,6 +144,8 @@ def make(
     if seed < 0 or size < 1:
         bad = ("--seed", seed, 0) if seed < 0 else ("--size", size, 1)
         raise ConfigError(f"{bad[0]}: found {bad[1]}, allowed an integer from {bad[2]} on")
+    if size * size > LARGEST_MAP:
+        raise ConfigError(f"--size: found {size}, allowed an integer up to {isqrt(LARGEST_MAP)}")
     name = f"{family}-{size}" + (f":{obstacles}" if obstacles is not None else "") + (f":s{seed}" if seed else "")
     grid = _load(name, corners, "occupied", None)
     if out:
@@ -158,7 +163,7 @@ def _load(name: str, corners: str, unknown: str, threshold: int | None) -> Any:
 
     if corners not in get_args(Corners):
         known = get_args(Corners)
-        raise ConfigError(f"--corners: found {corners!r}, allowed {', '.join(known)}; {closest(corners, known)}")
+        raise ConfigError(f"--corners: found {corners!r}; {closest(corners, known)}")
     if unknown not in ("occupied", "free"):
         raise ConfigError(f"--unknown: found {unknown!r}, allowed occupied or free")
     return load_map(name, unknown=unknown, threshold=threshold, corners=corners)  # type: ignore[arg-type]

@@ -8,8 +8,8 @@ from typing import Any
 import click
 
 from pathloom.cli import DONE, INTERRUPTED, NO_PATH
-from pathloom.config import DEFAULT_PLANNER, Config, parse_place, read_config
-from pathloom.errors import ConfigError, MapError
+from pathloom.config import Config, parse_place, read_config
+from pathloom.errors import ConfigError, MapError, ProblemError
 
 EXPORTS = (".csv", ".json")
 PLOTS = (".png", ".svg", ".pdf", ".gif")
@@ -31,7 +31,12 @@ PLOTS = (".png", ".svg", ".pdf", ".gif")
     help="Radius of the robot, in metres where the map has a resolution, else in cells.",
 )
 @click.option("--unknown", metavar="occupied|free", help="What unknown cells of a ROS map count as.")
-@click.option("--threshold", type=int, metavar="GREY", help="Grey (0 to 255) below which a pixel is an obstacle.")
+@click.option(
+    "--threshold",
+    type=click.IntRange(0, 255),
+    metavar="GREY",
+    help="Grey (0 to 255) below which a pixel is an obstacle.",
+)
 @click.option("--seed", type=int, help="An integer from 0 on; the same seed gives the same result.")
 @click.option("--set", "settings", multiple=True, metavar="SLOT=COMPONENT|SLOT.FIELD=VALUE", help="Change one part.")
 @click.option("--time-limit", type=float, metavar="SECONDS", help="Answer with the best so far after this time.")
@@ -58,8 +63,8 @@ def command(ctx: click.Context, /, **options: Any) -> None:
     from pathloom.config import frozen
 
     with console.compiling(quiet=quiet):
-        planner = _planner(config, options["settings"])
-        problem = config.problem.build()
+        planner = _planner(config, options)
+        problem = _problem(config, options)
         if facts is not None:
             facts["scenario"].check(facts["case"], problem.grid)
         name = config.problem.map
@@ -101,32 +106,23 @@ def _run(config: Config, planner: Any, problem: Any, options: dict[str, Any], fa
         )
     if facts is not None:
         result = replace(result, problem={**result.problem, **facts["said"]})
-    messages = console.err()
-    if result.status == "unreachable":
-        if options["as_json"]:
-            console.print_json(result.to_dict())
-        messages.print(f"pathloom: no path: {result.reason}", soft_wrap=True)
-        return NO_PATH
-
     if options["as_json"]:
         console.print_json(result.to_dict())
-    else:
+    elif result.status != "unreachable":
         report.show(result, console.out())
     report.write(result, options, frames)
     if not options["quiet"]:
+        messages = console.err()
         for note in report.notes(result):
             messages.print(f"pathloom: {note}", soft_wrap=True)
-    if not result.found:
-        messages.print(f"pathloom: no path: {result.reason}{report.advice(result)}", soft_wrap=True)
     if result.interrupted:
-        messages.print("pathloom: interrupted; this is the best so far", soft_wrap=True)
         return INTERRUPTED
     return DONE if result.found else NO_PATH
 
 
 def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
     config = read_config(options["config"]) if options["config"] else Config()
-    world = options["world"]
+    world = options["world"] or config.problem.world
     changes: dict[str, Any] = {}
     facts = None
     if options["case"] is not None and not options["scenario"]:
@@ -134,8 +130,9 @@ def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
     if options["scenario"]:
         from pathloom.grid import read_scenario
 
-        if options["map_"]:
-            raise ConfigError("--scenario: sets the map; leave --map away")
+        for name in ("map_", "start", "goal"):
+            if options[name] is not None:
+                raise ConfigError(f"--scenario: sets map, start and goal; leave --{name.rstrip('_')} away")
         scenario = read_scenario(options["scenario"])
         case = scenario.case(options["case"] or 0)
         changes.update(map=str(scenario.map_path(case)), start=case.start, goal=case.goal, world=False)
@@ -150,12 +147,17 @@ def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
     for end in ("start", "goal"):
         if options[end] is not None:
             changes[end] = parse_place(options[end], f"--{end}", world=world)
+        elif options["world"] and not config.problem.world and not isinstance(getattr(config.problem, end), str):
+            raise ConfigError(f"--world: needs --{end} as well, for the config gives it as a cell")
     if world:
-        changes["world"] = True
+        changes.setdefault("world", True)
     for name in ("corners", "radius", "unknown", "threshold"):
         if options[name] is not None:
             changes[name] = options[name]
-    config = replace(config, problem=replace(config.problem, **changes))
+    try:
+        config = replace(config, problem=replace(config.problem, **changes))
+    except ConfigError as error:
+        raise ConfigError(f"--{error}") from error
     if options["planner"] is not None:
         config = replace(config, planner={"use": options["planner"]})
     if options["seed"] is not None:
@@ -170,26 +172,46 @@ def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
     return config, facts
 
 
-def _planner(config: Config, settings: tuple[str, ...]) -> Any:
+def _planner(config: Config, options: dict[str, Any]) -> Any:
     from pathloom.kernel.compose import compose, override
 
     try:
-        planner = compose(config.planner or DEFAULT_PLANNER)
+        planner = compose(config.planner)
     except ConfigError as error:
-        raise ConfigError(str(error).removeprefix("planner: ")) from error
-    for setting in settings:
-        path, equals, text = setting.partition("=")
-        if not equals or not path:
-            raise ConfigError(f"--set {setting}: found no '=', allowed SLOT=COMPONENT or SLOT.FIELD=VALUE")
-        planner = override(planner, path.strip(), _value(text.strip()), where="--set")
+        by_option = options["planner"] is not None
+        raise ConfigError(f"--{error}" if by_option else f"{options['config']}: {error}") from error
+    for setting in options["settings"]:
+        path, equals, text = (part.strip() for part in setting.partition("="))
+        if not all(path.split(".")) or not equals:
+            raise ConfigError(f"--set {setting}: found no SLOT or no '=', allowed SLOT=COMPONENT or SLOT.FIELD=VALUE")
+        try:
+            planner = override(planner, path, _value(text))
+        except ConfigError as error:
+            said = str(error)
+            raise ConfigError(f"--set {said if said.startswith(path) else f'{path}: {said}'}") from error
     return planner
+
+
+def _problem(config: Config, options: dict[str, Any]) -> Any:
+    """Build the problem; what is wrong with it is told with the option or the file that says so."""
+    try:
+        return config.problem.build()
+    except (ConfigError, ProblemError) as error:
+        key = str(error).partition(":")[0]
+        if options.get(key) is not None:
+            raise type(error)(f"--{error}") from error
+        if options["scenario"] and key in ("start", "goal"):
+            raise type(error)(f"{options['scenario']}: case {options['case'] or 0}: {error}") from error
+        if options["config"]:
+            raise type(error)(f"{options['config']}: problem.{error}") from error
+        raise
 
 
 def _value(text: str) -> Any:
     """Return what a value means in TOML; a bare word is a name."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # no TOML, or a number of thousands of digits
         return text
 
 
@@ -199,6 +221,8 @@ def _check_files(options: dict[str, Any]) -> None:
         name = options[option]
         if name is None:
             continue
+        if not name:
+            raise ConfigError(f"--{option}: found no name, allowed a file")
         file = Path(name)
         if allowed and file.suffix.lower() not in allowed:
             raise ConfigError(f"--{option}: found the suffix {file.suffix!r}, allowed {' '.join(allowed)}")

@@ -5,10 +5,11 @@ from typing import Any
 
 import click
 
+from pathloom.cli import Group
 from pathloom.errors import ConfigError
 
 
-@click.group("plugins")
+@click.group("plugins", cls=Group)
 def command() -> None:
     """List and show plugins and their components."""
 
@@ -57,9 +58,9 @@ def list_(kind: str | None, as_json: bool) -> None:
     for namespace in registry.namespaces:
         source = registry.source(namespace)
         if not source.ours and namespace not in broken:
-            console.out().print(f"{source}", markup=False)
+            console.out().print(f"{source}")
     for cause in broken.values():
-        console.out().print(f"broken: {cause}", style="red", markup=False, soft_wrap=True)
+        console.out().print(f"broken: {cause}", style="red", soft_wrap=True)
 
 
 @command.command("show")
@@ -68,6 +69,7 @@ def list_(kind: str | None, as_json: bool) -> None:
 def show(name: str, as_json: bool) -> None:
     """Show a component: what it is, its source, and its parameters with defaults and ranges."""
     from rich.table import Table
+    from rich.text import Text
 
     from pathloom.cli import console
     from pathloom.kernel.component import parameters
@@ -120,15 +122,15 @@ def show(name: str, as_json: bool) -> None:
         return
     out = console.out()
     for document in documents:
-        out.print(f"[bold]{document['name']}[/bold], {document['kind']}, {document['plugin']}")
-        out.print(document["about"], markup=False)
+        out.print(Text.assemble((document["name"], "bold"), f", {document['kind']}, {document['plugin']}"))
+        out.print(document["about"])
         if document["source"]:
-            out.print(f"Source: {document['source']}", markup=False)
+            out.print(f"Source: {document['source']}")
         if document.get("reference"):
-            out.print(f"Reference: {document['reference']}", markup=False)
-            out.print(f"Fidelity: {document['fidelity']}", markup=False)
+            out.print(f"Reference: {document['reference']}")
+            out.print(f"Fidelity: {document['fidelity']}")
             for assumption in document["assumptions"]:
-                out.print(f"  - {assumption}", markup=False)
+                out.print(f"  - {assumption}")
         if document["parameters"]:
             table = Table(box=None, pad_edge=False)
             for head in ("parameter", "allowed", "default", "meaning"):

@@ -9,6 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from pathloom.cli.console import json_line
 from pathloom.files import replace as write_file
 from pathloom.result import Result
 
@@ -79,19 +80,24 @@ def notes(result: Result) -> Iterator[str]:
     """Yield what a reader of the numbers ought to know."""
     if result.found and result.reason:
         yield result.reason
+    if not result.found:
+        yield f"no path: {result.reason}{_advice(result)}"
+    if result.interrupted:
+        yield "interrupted; this is the best so far"
     scenario = result.problem.get("scenario")
     grid = (result.optimum or {}).get("grid")
-    if scenario and grid is not None and abs(grid - scenario["stated_optimum"]) > scenario["tolerance"]:
+    same = not result.problem["radius"]  # a scenario's robot is a point
+    if scenario and same and grid is not None and abs(grid - scenario["stated_optimum"]) > scenario["tolerance"]:
         yield (
             f"the scenario states an optimum of {scenario['stated_optimum']:g}; "
             f"the exact one under {result.problem['corners']!r} is {grid:.8f}"
         )
 
 
-def advice(result: Result) -> str:
+def _advice(result: Result) -> str:
     """Return what may help where the planner's own sampling found nothing."""
     sampling = result.config["planner"].get("sampling", {})
-    if result.budget.get("evaluations") == 0 and sampling.get("use") != "perturbed-trees":
+    if result.budget.get("evaluations") == 0 and not result.interrupted and sampling.get("use") != "perturbed-trees":
         return "; try --set sampling=perturbed-trees"
     return ""
 
@@ -107,7 +113,7 @@ def frame(state: Any) -> Any:
 def write(result: Result, options: dict[str, Any], frames: list[Any]) -> None:
     """Write the files that were asked for, each under a temporary name first."""
     if options["out"]:
-        write_file(options["out"], (result.to_json() + "\n").encode())
+        write_file(options["out"], json_line(result.to_dict()).encode())
     if options["export"] and result.found:
         write_file(options["export"], export(result, Path(options["export"]).suffix.lower()).encode())
     if options["plot"]:
