@@ -61,13 +61,17 @@ def corners_on(dr: int, dc: int) -> Cells:
 
 
 def touched(blocked: np.ndarray, a: Cell, b: Cell) -> set[Cell]:
-    """Return the corners of obstacles that a segment passes through, as the cell up left of each."""
-    found = {(a[0] + i, a[1] + j) for i, j in corners_on(b[0] - a[0], b[1] - a[1])}
-    return {(i, j) for i, j in found if blocked[i : i + 2, j : j + 2].any()}
+    """Return the corners, as the cell up left of each, of obstacles that a segment meets at that corner only."""
+    found = set()
+    for i, j in corners_on(b[0] - a[0], b[1] - a[1]):
+        for r, c in ((i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)):
+            if blocked[a[0] + r, a[1] + c] and meets(b[0] - a[0], b[1] - a[1], r, c) == "border":
+                found.add((a[0] + i, a[1] + j))
+    return found
 
 
 def squeezed(blocked: np.ndarray, a: Cell, b: Cell) -> set[Cell]:
-    """Return those of them that two diagonally opposite obstacles share."""
+    """Return those of these corners that two diagonally opposite obstacles share."""
     return {
         (i, j)
         for i, j in touched(blocked, a, b)

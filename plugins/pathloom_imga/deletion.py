@@ -7,7 +7,8 @@ import numpy as np
 
 from pathloom import Collision, Population, Problem, Repair, Whole
 from pathloom.paths.collision import Exact
-from pathloom.paths.deletion import PointDeletion
+from pathloom.paths.deletion import delete_points
+from pathloom.paths.pathwise import path_problem
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,4 +28,4 @@ class SequentialPointDeletion(Repair):
     """How many times along the path; 0: until nothing changes."""
 
     def apply(self, population: Population, problem: Problem, rng: np.random.Generator) -> Population:
-        return PointDeletion(collision=self.collision, passes=self.passes).apply(population, problem, rng)
+        return delete_points(population, path_problem(problem), self.collision, self.passes)

@@ -52,8 +52,7 @@ class QuadrantEnergy(Objective):
 
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem).context
-        aligned = it.start // it.cols == it.goal // it.cols or it.start % it.cols == it.goal % it.cols
-        by_angle = aligned or self.by_angle == "always"
+        by_angle = it.aligned or self.by_angle == "always"
         return np.asarray(
             compiled.cells.quadrant_energy(population, it.cols, it.goal, *it.signs, np.array(self.price), by_angle)
         )

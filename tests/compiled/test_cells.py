@@ -2,13 +2,13 @@
 
 import math
 
+import naive
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-
-import naive
 from naive import Cells, examples
+
 from pathloom import PathProblem, compiled
 from pathloom.paths.context import Context
 
@@ -160,7 +160,13 @@ def assert_legal(path: Cells, problem: PathProblem, *, loops: bool = False) -> N
     assert loops or len(set(path)) == len(path)
 
 
-@given(problem=naive.problems(), state=naive.words, reach=st.sampled_from([4, 8]), guarded=st.booleans(), loops=st.booleans())
+@given(
+    problem=naive.problems(),
+    state=naive.words,
+    reach=st.sampled_from([4, 8]),
+    guarded=st.booleans(),
+    loops=st.booleans(),
+)
 @examples(100)
 def test_insertion_draws_distinct_legal_paths(problem, state, reach, guarded, loops) -> None:
     assume(problem.context.start != problem.context.goal)
@@ -204,7 +210,9 @@ def test_insertion_gives_up_after_as_many_failures_in_a_row_as_tries() -> None:
     assert (found.shape, failed, again) == ((0, 1), 7, 0)
 
 
-def mutated(problem: PathProblem, paths: list[Cells], chosen: list[int], state: list[int], *, cap=40, reach=8, loops=False):
+def mutated(
+    problem: PathProblem, paths: list[Cells], chosen: list[int], state: list[int], *, cap=40, reach=8, loops=False
+):
     it = problem.context
     population = naive.packed(paths, it.cols, padding=2)
     before = population.copy()
@@ -216,7 +224,13 @@ def mutated(problem: PathProblem, paths: list[Cells], chosen: list[int], state: 
     return naive.unpacked(changed, it.cols), failed
 
 
-@given(problem=naive.problems(), state=naive.words, reach=st.sampled_from([4, 8]), cap=st.sampled_from([0, 1, 40]), loops=st.booleans())
+@given(
+    problem=naive.problems(),
+    state=naive.words,
+    reach=st.sampled_from([4, 8]),
+    cap=st.sampled_from([0, 1, 40]),
+    loops=st.booleans(),
+)
 @examples(120)
 def test_mutation_keeps_paths_legal_and_leaves_the_others_alone(problem, state, reach, cap, loops) -> None:
     assume(problem.context.start != problem.context.goal)

@@ -94,10 +94,10 @@ def main() -> None:
 
 
 def _make_output_safe() -> None:
-    """Let printing never fail for want of a stream, which the caller may have closed, or of a letter in its encoding."""
+    """Let printing fail neither for want of a stream, which may be closed, nor of a letter in its encoding."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
-            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 - until the process ends
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
 

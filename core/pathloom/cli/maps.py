@@ -3,7 +3,6 @@
 from typing import Any
 
 import click
-import numpy as np
 
 from pathloom.cli import BAD_INPUT, Group
 from pathloom.errors import ConfigError, PathloomError
@@ -51,6 +50,8 @@ def list_(as_json: bool) -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
 def show(map_: str, corners: str, unknown: str, threshold: int | None, as_json: bool) -> None:
     """Show a map and what it consists of."""
+    import numpy as np
+
     from pathloom.cli import console
     from pathloom.draw import picture
     from pathloom.grid import labels

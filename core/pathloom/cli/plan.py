@@ -3,13 +3,15 @@
 import tomllib
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from pathloom.cli import DONE, INTERRUPTED, NO_PATH
-from pathloom.config import Config, parse_place, read_config
 from pathloom.errors import ConfigError, MapError, ProblemError
+
+if TYPE_CHECKING:
+    from pathloom.config import Config
 
 EXPORTS = (".csv", ".json")
 PLOTS = (".png", ".svg", ".pdf", ".gif")
@@ -82,7 +84,7 @@ def command(ctx: click.Context, /, **options: Any) -> None:
         ctx.exit(_run(config, planner, problem, options, facts))
 
 
-def _run(config: Config, planner: Any, problem: Any, options: dict[str, Any], facts: Any) -> int:
+def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], facts: Any) -> int:
     from pathloom.cli import console, report
     from pathloom.planning import plan
 
@@ -110,17 +112,20 @@ def _run(config: Config, planner: Any, problem: Any, options: dict[str, Any], fa
         console.print_json(result.to_dict())
     elif result.status != "unreachable":
         report.show(result, console.out())
-    report.write(result, options, frames)
+    unwritten = [f"{name}: not written, for there is no path" for name in report.write(result, options, frames)]
     if not options["quiet"]:
         messages = console.err()
-        for note in report.notes(result):
+        for note in (*report.notes(result), *unwritten):
             messages.print(f"pathloom: {note}", soft_wrap=True)
     if result.interrupted:
         return INTERRUPTED
     return DONE if result.found else NO_PATH
 
 
-def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
+def _config(options: dict[str, Any]) -> tuple["Config", dict[str, Any] | None]:
+    from pathloom.config import Config, parse_place, read_config
+    from pathloom.kernel.run import check_seed
+
     config = read_config(options["config"]) if options["config"] else Config()
     world = options["world"] or config.problem.world
     changes: dict[str, Any] = {}
@@ -164,15 +169,13 @@ def _config(options: dict[str, Any]) -> tuple[Config, dict[str, Any] | None]:
         config = replace(config, seed=options["seed"])
     if options["time_limit"] is not None:
         config = replace(config, time_limit=options["time_limit"])
-    from pathloom.kernel.run import check_seed
-
     check_seed(config.seed)
     if config.time_limit is not None and not config.time_limit > 0:
         raise ConfigError(f"--time-limit: found {config.time_limit!r}, allowed seconds above 0")
     return config, facts
 
 
-def _planner(config: Config, options: dict[str, Any]) -> Any:
+def _planner(config: "Config", options: dict[str, Any]) -> Any:
     from pathloom.kernel.compose import compose, override
 
     try:
@@ -192,7 +195,7 @@ def _planner(config: Config, options: dict[str, Any]) -> Any:
     return planner
 
 
-def _problem(config: Config, options: dict[str, Any]) -> Any:
+def _problem(config: "Config", options: dict[str, Any]) -> Any:
     """Build the problem; what is wrong with it is told with the option or the file that says so."""
     try:
         return config.problem.build()

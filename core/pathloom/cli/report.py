@@ -82,7 +82,7 @@ def notes(result: Result) -> Iterator[str]:
         yield result.reason
     if not result.found:
         yield f"no path: {result.reason}{_advice(result)}"
-    if result.interrupted:
+    elif result.interrupted:
         yield "interrupted; this is the best so far"
     scenario = result.problem.get("scenario")
     grid = (result.optimum or {}).get("grid")
@@ -110,12 +110,14 @@ def frame(state: Any) -> Any:
     return state.generation, paths, best, state.answer.fitness if state.answer is not None else 0.0
 
 
-def write(result: Result, options: dict[str, Any], frames: list[Any]) -> None:
-    """Write the files that were asked for, each under a temporary name first."""
+def write(result: Result, options: dict[str, Any], frames: list[Any]) -> Iterator[str]:
+    """Write the files that were asked for, each under a temporary name first; yield those that need a path."""
     if options["out"]:
         write_file(options["out"], json_line(result.to_dict()).encode())
     if options["export"] and result.found:
         write_file(options["export"], export(result, Path(options["export"]).suffix.lower()).encode())
+    elif options["export"]:
+        yield options["export"]
     if options["plot"]:
         if Path(options["plot"]).suffix.lower() == ".gif":
             from pathloom.draw import animate
@@ -134,6 +136,8 @@ def write(result: Result, options: dict[str, Any], frames: list[Any]) -> None:
                     goal=problem.ends[1],
                     dark=options["dark"],
                 )
+            else:
+                yield options["plot"]
         else:
             result.plot(options["plot"], dark=options["dark"])
 

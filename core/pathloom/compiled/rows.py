@@ -77,9 +77,15 @@ def unpack(flat, begin, n):
 
 @part("u8(i4[::1], i8)")
 def hash_of(path, count):
-    """Return a 64-bit hash of a path (FNV-1a with a shift mixed in)."""
-    value = np.uint64(14695981039346656037)
-    for i in range(count):
-        value = (value ^ np.uint64(path[i])) * np.uint64(1099511628211)
-        value ^= value >> np.uint64(29)
-    return value
+    """Return a 64-bit hash of a path: FNV-1a in two lanes, which the processor works off side by side, then mixed."""
+    prime = np.uint64(1099511628211)
+    even = np.uint64(14695981039346656037)
+    odd = np.uint64(count) * prime
+    for i in range(0, count - 1, 2):
+        even = (even ^ np.uint64(path[i])) * prime
+        odd = (odd ^ np.uint64(path[i + 1])) * prime
+    if count % 2 == 1:
+        even = (even ^ np.uint64(path[count - 1])) * prime
+    value = even ^ (odd << np.uint64(31) | odd >> np.uint64(33))
+    value = (value ^ value >> np.uint64(32)) * np.uint64(0x9E3779B97F4A7C15)
+    return value ^ value >> np.uint64(29)

@@ -22,6 +22,7 @@ from pathloom.kernel.counting import count, counting, total
 from pathloom.kernel.evaluation import Fitness, Floats, ReciprocalOfSum, Terms, Weighting, measure
 from pathloom.kernel.operators import (
     Crossover,
+    Indices,
     Migration,
     Mutation,
     Pairing,
@@ -158,24 +159,36 @@ class Evolution(Planner):
         """Return the offspring of selected parents; ``fitness`` (n,) is the parents'."""
         if self.crossover is not None:
             pairs = self.pairing.pair(fitness, rng)
-            rates = self.crossover.rates(fitness, progress)
-            first, second = pairs[:, 0], pairs[:, 1]
-            fitter = np.where(fitness[first] >= fitness[second], first, second)
-            crossed = pairs[rng.random(len(pairs)) < rates[fitter]]
-            population = self.crossover.cross(population, crossed, problem, rng)
+            crossed = rng.random(len(pairs)) < self._pair_rates(self.crossover, pairs, fitness, progress)
+            population = self.crossover.cross(population, pairs[crossed], problem, rng)
         if self.mutation is not None:
             # A child is mutated with the rate of the parent whose row it took: its own fitness is not known yet.
-            chosen = np.flatnonzero(rng.random(len(population)) < self.mutation.rates(fitness, progress))
-            population = self.mutation.apply(population, chosen, problem, rng)
+            mutated = rng.random(len(population)) < self.mutation.rates(fitness, progress)
+            population = self.mutation.apply(population, np.flatnonzero(mutated), problem, rng)
         if self.repair is not None:
             population = self.repair.apply(population, problem, rng)
         return population
 
     def evaluate(self, population: Population, problem: Problem) -> Deme:
-        """Return the population with its values and fitness, and count the evaluations."""
-        values = measure([term.objective for term in self.objectives], population, problem)
+        """Return the population with its values and fitness, and count the evaluations.
+
+        Each distinct individual is measured once; all count.
+        """
         count("evaluations", len(population))
-        return Deme(population, values, self.fitness.combine(values, self.weights))
+        distinct, which = problem.representation.distinct(population)
+        objectives = [term.objective for term in self.objectives]
+        values = measure(objectives, population[distinct], problem)
+        fitness = self.fitness.combine(values, self.weights)
+        return Deme(population, values[which], fitness[which], distinct)
+
+    @staticmethod
+    def _pair_rates(crossover: Crossover, pairs: Indices, fitness: Floats, progress: float) -> Floats | float:
+        """Return how likely each pair is to be crossed: the rate of its fitter parent."""
+        if crossover.probability is None:
+            return crossover.rate
+        first, second = pairs[:, 0], pairs[:, 1]
+        fitter = np.where(fitness[first] >= fitness[second], first, second)
+        return np.asarray(crossover.rates(fitness, progress)[fitter])
 
     def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
         deme = self.evaluate(row[np.newaxis], problem)
@@ -194,11 +207,14 @@ class Evolution(Planner):
             row = deme.best()
             if best is None or deme.fitness[row] > best.fitness:
                 best = Individual(deme.population[row], deme.values[row], float(deme.fitness[row]), generation)
+            distinct = deme.distinct
+            if distinct is None:  # a migration has put it together
+                distinct, _ = problem.representation.distinct(deme.population)
             if index == 0:
-                diversity = len(problem.representation.first_of_each(deme.population)) / len(deme)
+                diversity = len(distinct) / len(deme)
             if self.archive is not None:
                 was = before.demes[index].population if before.demes else deme.population[:0]
-                new = problem.representation.newcomers(deme.population, was)
+                new = distinct[problem.representation.newcomers(deme.population[distinct], was)]
                 with counting() as kept:
                     answer = self.archive.update(answer, deme, new, generation, problem, self.refinement, rng)
                 counts = total(counts, kept)

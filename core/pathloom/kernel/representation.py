@@ -27,12 +27,15 @@ class Representation(Component, ABC):
         """Return the rows of both populations in one."""
         return np.concatenate((first, second))
 
-    def first_of_each(self, population: Population) -> NDArray[np.intp]:
-        """Return, in order, the index of the first of each distinct individual."""
-        return np.sort(np.unique(population, axis=0, return_index=True)[1])
+    def distinct(self, population: Population) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return the indices (d,) of the first of each distinct individual, and for every row which of those it is."""
+        _, first, which = np.unique(population, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        place = np.empty_like(order)
+        place[order] = np.arange(len(order))
+        return first[order], place[which.ravel()]
 
     def newcomers(self, population: Population, before: Population) -> NDArray[np.intp]:
-        """Return, in order, the index of the first of each distinct individual that was not there before."""
+        """Return, in order, the indices of the individuals, distinct ones, that were not there before."""
         known = {row.tobytes() for row in before}
-        first = self.first_of_each(population)
-        return first[[population[k].tobytes() not in known for k in first]]
+        return np.array([k for k, row in enumerate(population) if row.tobytes() not in known], np.intp)

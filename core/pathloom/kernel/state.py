@@ -24,6 +24,8 @@ class Deme:
     population: Population
     values: Floats
     fitness: Floats
+    distinct: NDArray[np.intp] | None = None
+    """Indices of the first of each distinct individual, where they are known."""
 
     def __len__(self) -> int:
         """Return the number of individuals."""

@@ -47,8 +47,8 @@ class CellPaths(Representation):
         both[len(first) :, : second.shape[1]] = second
         return both
 
-    def first_of_each(self, population: Population) -> NDArray[np.intp]:
-        return np.asarray(compiled.cells.newcomers(population, population[:0]))
+    def distinct(self, population: Population) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        return compiled.cells.distinct(population)  # type: ignore[no-any-return]
 
     def newcomers(self, population: Population, before: Population) -> NDArray[np.intp]:
         return np.asarray(compiled.cells.newcomers(population, before))

@@ -33,22 +33,22 @@ class Context:
     start: int
     goal: int
 
-    @property
+    @cached_property
     def rows(self) -> int:
         """Height of the map."""
         return int(self.occupied.shape[0])
 
-    @property
+    @cached_property
     def cols(self) -> int:
         """Width of the map."""
         return int(self.occupied.shape[1])
 
-    @property
+    @cached_property
     def policy(self) -> int:
         """The corner policy's number in the kernels."""
         return POLICIES[self.corners]
 
-    @property
+    @cached_property
     def signs(self) -> tuple[int, int]:
         """Directions (row, column) from start to goal, +1 or −1; −1 and +1 where they share a row or a column."""
         dr, dc = (
@@ -56,6 +56,11 @@ class Context:
             self.goal % self.cols - self.start % self.cols,
         )
         return (1 if dr > 0 else -1), (-1 if dc < 0 else 1)
+
+    @cached_property
+    def aligned(self) -> bool:
+        """Whether start and goal share a row or a column."""
+        return self.start // self.cols == self.goal // self.cols or self.start % self.cols == self.goal % self.cols
 
     @cached_property
     def blocked(self) -> Bytes:

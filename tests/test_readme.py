@@ -1,0 +1,66 @@
+"""What the README and the guides show works as shown."""
+
+import re
+import shlex
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PAGES = ("README.md", "plugins/README.md")
+
+
+def blocks(page, language):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+
+
+def test_the_commands_of_the_first_steps_run_in_this_order(tmp_path):
+    lines = [line for block in blocks("README.md", "console") for line in block.splitlines() if line.startswith("$ ")]
+    assert len(lines) >= 8
+    for line in lines:
+        command = shlex.split(line[2:])
+        assert command[0] == "pathloom"
+        done = subprocess.run(
+            [sys.executable, "-m", "pathloom", *command[1:]], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, f"{line}\n{done.stderr}"
+    assert {"rooms.png", "random.csv", "path.csv", "result.json"} <= {p.name for p in tmp_path.iterdir()}
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_the_python_blocks_run(page):
+    found = blocks(page, "python")
+    assert found
+    for number, block in enumerate(found):
+        scope = {"__name__": f"shown_{number}"}
+        exec(compile(block, f"{page} block {number}", "exec", dont_inherit=True), scope)
+
+
+def test_the_config_shown_is_planned(tmp_path):
+    (block,) = blocks("README.md", "toml")
+    (tmp_path / "plan.toml").write_text(block)
+    done = subprocess.run(
+        [sys.executable, "-m", "pathloom", "plan", "plan.toml", "--json"], cwd=tmp_path, capture_output=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert tomllib.loads(block)["planner"]["population"] == 80
+
+
+def test_two_commands_do_all_the_set_up():
+    shell = blocks("README.md", "sh")
+    assert [block.count("\n") for block in shell] == [1, 1]
+    assert shell[0].strip().endswith("pathloom plan")
+    assert shell[1].strip().endswith("pytest")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_somewhere(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#]+)\)|(?:src|srcset)=\"([^\"]+)\"", text):
+        name = target[0] or target[1]
+        if not name.startswith("http"):
+            assert (ROOT / page).parent.joinpath(name).exists(), name
