@@ -60,23 +60,21 @@ def corners_on(dr: int, dc: int) -> Cells:
     return tuple((i, j) for i in rows for j in cols if (i + HALF) * dc == (j + HALF) * dr)
 
 
-def touched(blocked: np.ndarray, a: Cell, b: Cell) -> set[Cell]:
-    """Return the corners, as the cell up left of each, of obstacles that a segment meets at that corner only."""
-    found = set()
-    for i, j in corners_on(b[0] - a[0], b[1] - a[1]):
-        for r, c in ((i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)):
-            if blocked[a[0] + r, a[1] + c] and meets(b[0] - a[0], b[1] - a[1], r, c) == "border":
-                found.add((a[0] + i, a[1] + j))
+def touched(blocked: np.ndarray, a: Cell, b: Cell) -> dict[Cell, int]:
+    """Return how many obstacles a segment meets only there for each corner, as the cell up left of it."""
+    dr, dc = b[0] - a[0], b[1] - a[1]
+    found: dict[Cell, int] = {}
+    for i, j in corners_on(dr, dc):
+        around = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)]
+        beside = [(r, c) for r, c in around if meets(dr, dc, r, c) == "border"]
+        if obstacles := sum(bool(blocked[a[0] + r, a[1] + c]) for r, c in beside):
+            found[i, j] = obstacles
     return found
 
 
-def squeezed(blocked: np.ndarray, a: Cell, b: Cell) -> set[Cell]:
-    """Return those of these corners that two diagonally opposite obstacles share."""
-    return {
-        (i, j)
-        for i, j in touched(blocked, a, b)
-        if (blocked[i, j] and blocked[i + 1, j + 1]) or (blocked[i, j + 1] and blocked[i + 1, j])
-    }
+def squeezed(blocked: np.ndarray, a: Cell, b: Cell) -> int:
+    """Return through how many corners a segment passes that two diagonally opposite obstacles share."""
+    return sum(obstacles == 2 for obstacles in touched(blocked, a, b).values())
 
 
 def segment_free(blocked: np.ndarray, a: Cell, b: Cell, corners: str) -> bool:

@@ -44,7 +44,10 @@ def test_the_config_shown_is_planned(tmp_path):
     (block,) = blocks("README.md", "toml")
     (tmp_path / "plan.toml").write_text(block)
     done = subprocess.run(
-        [sys.executable, "-m", "pathloom", "plan", "plan.toml", "--json"], cwd=tmp_path, capture_output=True, check=False
+        [sys.executable, "-m", "pathloom", "plan", "plan.toml", "--json"],
+        cwd=tmp_path,
+        capture_output=True,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     assert tomllib.loads(block)["planner"]["population"] == 80

@@ -87,7 +87,9 @@ class PlainImga:
             return mother, father
         cell = self.random.choice(common)
         i, j = mother.index(cell), father.index(cell)
-        return self.without_loops(mother[: i + 1] + father[j + 1 :]), self.without_loops(father[: j + 1] + mother[i + 1 :])
+        return self.without_loops(mother[: i + 1] + father[j + 1 :]), self.without_loops(
+            father[: j + 1] + mother[i + 1 :]
+        )
 
     def mutate(self, path):
         if len(path) < 3:

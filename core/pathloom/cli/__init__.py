@@ -68,7 +68,7 @@ def main() -> None:
 
     _make_output_safe()
     try:
-        code = pathloom.main(standalone_mode=False)
+        code = pathloom.main(prog_name="pathloom", standalone_mode=False)
         sys.stdout.flush()
     except PathloomError as error:
         code = _say(str(error), BAD_INPUT)

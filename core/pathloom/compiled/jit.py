@@ -30,12 +30,20 @@ Listener = Callable[[int, int], None]
 _lock = threading.RLock()
 _listeners: list[Listener] = []
 _progress = {"done": 0, "all": 0}
+_seconds = 0.0
+
+
+def seconds_loading() -> float:
+    """Return how long this process has spent on loading families, compilation included."""
+    return _seconds
 
 
 @contextmanager
 def loading(family: str) -> Iterator[None]:
     """Count the kernels of a family while it is loaded; one thread at a time loads."""
+    global _seconds  # noqa: PLW0603 - one clock a process, under the lock
     with _lock:
+        began = time.perf_counter()
         before = dict(_progress)
         names = [f"{__package__}.{name}" for name in dict.fromkeys((*SHARED, family))]
         _progress.update(done=0, all=sum(_kernels_in(name) for name in names if name not in sys.modules))
@@ -43,6 +51,7 @@ def loading(family: str) -> Iterator[None]:
             yield
         finally:
             _progress.update(before)
+            _seconds += time.perf_counter() - began
 
 
 def _kernels_in(module: str) -> int:
