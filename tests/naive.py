@@ -187,8 +187,14 @@ def quadrant_energy(path: Cells, goal: Cell, signs: Cell, price: tuple[float, ..
     return total
 
 
+def distinct(paths: list[Cells]) -> tuple[list[int], list[int]]:
+    """Return the index of the first of each different path, and for each path which of those it is."""
+    different = list(dict.fromkeys(paths))
+    return [paths.index(path) for path in different], [different.index(path) for path in paths]
+
+
 def newcomers(paths: list[Cells], before: list[Cells]) -> list[int]:
-    return [k for k, path in enumerate(paths) if path not in [*before, *paths[:k]]]
+    return [k for k, path in enumerate(paths) if path not in before]
 
 
 def without_loops(path: Cells) -> Cells:

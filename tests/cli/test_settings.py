@@ -29,8 +29,8 @@ def test_a_slot_takes_a_component_by_its_full_name(planner) -> None:
 
 
 def test_a_slot_takes_a_table_of_toml(planner) -> None:
-    chosen = planner('survival={use = "keep-best", count = 3}')["survival"]
-    assert chosen == {"use": "keep-best", "count": 3}
+    chosen = planner('survival={use = "keep-best", elites = 3}')["survival"]
+    assert chosen == {"use": "keep-best", "elites": 3}
 
 
 def test_a_field_is_set_and_its_neighbours_stay(planner) -> None:

@@ -69,6 +69,7 @@ def _results(problem: PathProblem) -> dict[str, object]:
         "turns": cells.turns(trees, it.cols),
         "energy": cells.quadrant_energy(trees, it.cols, it.goal, *it.signs, np.array([1.0, 3.0, 10.0]), False),
         "energy by angle": cells.quadrant_energy(trees, it.cols, it.goal, *it.signs, np.array([1.0, 3.0, 10.0]), True),
+        "distinct": cells.distinct(np.concatenate((trees, trees[::-1]))),
         "newcomers": cells.newcomers(np.concatenate((trees, trees)), trees[:1]),
         "free": segments.segments_free(it.blocked, it.cols, *pairs_of_ends, it.policy),
         "shortened": segments.delete_points(trees, it.blocked, it.cols, it.policy, 0),

@@ -86,10 +86,26 @@ def test_energy_goes_by_the_quadrant_or_the_angle_of_each_new_direction(data, sh
     paddings=st.tuples(st.integers(0, 5), st.integers(0, 5)),
 )
 @examples(120)
-def test_newcomers_are_first_of_their_kind_and_were_not_there_before(data, shape, paddings) -> None:
+def test_newcomers_were_not_there_before(data, shape, paddings) -> None:
     paths, before = (data.draw(st.lists(naive.paths_on(shape, 3), max_size=8)) for _ in range(2))
     now, then = (naive.packed(p, shape[1], k) for p, k in zip((paths, before), paddings, strict=True))
     assert compiled.cells.newcomers(now, then).tolist() == naive.newcomers(paths, before)
+
+
+@given(data=st.data(), shape=st.tuples(st.integers(1, 3), st.integers(1, 3)), padding=st.integers(0, 5))
+@examples(120)
+def test_paths_are_told_apart_and_each_knows_the_first_of_its_kind(data, shape, padding: int) -> None:
+    paths = data.draw(st.lists(naive.paths_on(shape, 3), max_size=12))
+    first, which = compiled.cells.distinct(naive.packed(paths, shape[1], padding))
+    assert (first.tolist(), which.tolist()) == naive.distinct(paths)
+
+
+def test_many_paths_of_few_kinds_are_told_apart() -> None:
+    rng = np.random.default_rng(0)
+    paths = [tuple((0, int(c)) for c in np.flatnonzero(rng.random(5) < 0.5)) or ((0, 0),) for _ in range(3000)]
+    first, which = compiled.cells.distinct(naive.packed(paths, 5))
+    assert len(first) == 31
+    assert (first.tolist(), which.tolist()) == naive.distinct(paths)
 
 
 @given(path=naive.paths_on((3, 3), 14))
@@ -277,3 +293,4 @@ def test_empty_populations_give_empty_answers() -> None:
     assert compiled.cells.sum_over_nodes(nobody, np.zeros(9, np.uint8), 0, 1).shape == (0,)
     assert compiled.cells.quadrant_energy(nobody, 3, 2, 1, 1, np.ones(3), False).shape == (0,)
     assert compiled.cells.newcomers(nobody, nobody).shape == (0,)
+    assert [part.shape for part in compiled.cells.distinct(nobody)] == [(0,), (0,)]

@@ -67,6 +67,7 @@ def main() -> None:
     from pathloom.errors import PathloomError
 
     _make_output_safe()
+    output = sys.stdout
     try:
         code = pathloom.main(prog_name="pathloom", standalone_mode=False)
         sys.stdout.flush()
@@ -78,6 +79,10 @@ def main() -> None:
         code = _say(where + error.format_message(), BAD_INPUT)
     except (KeyboardInterrupt, click.Abort):
         code = _say("interrupted", INTERRUPTED)
+    except SystemExit:
+        if sys.stdout is output:
+            raise
+        code = DONE  # a pipe was closed: click has put a silent stream in the place of our output
     except BrokenPipeError:  # whoever read our output has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = DONE

@@ -103,11 +103,11 @@ def _advice(result: Result) -> str:
 
 
 def frame(state: Any) -> Any:
-    """Return one frame of the animation: generation, paths, best path and its fitness."""
+    """Return one frame of the animation: generation, paths, fittest path so far and its fitness."""
     decode = state.problem.representation.decode
     paths = [decode(row) for row in state.population] if state.demes else []
-    best = decode(state.answer.row) if state.answer is not None else None
-    return state.generation, paths, best, state.answer.fitness if state.answer is not None else 0.0
+    best = state.best
+    return state.generation, paths, decode(best.row) if best else None, best.fitness if best else None
 
 
 def write(result: Result, options: dict[str, Any], frames: list[Any]) -> Iterator[str]:
@@ -126,7 +126,7 @@ def write(result: Result, options: dict[str, Any], frames: list[Any]) -> Iterato
             usable = [f for f in frames if f[2] is not None]
             if problem is not None and usable:
                 if result.path is not None:  # the last frame shows the answer as it is after refinement
-                    usable.append((usable[-1][0], [], result.path, usable[-1][3]))
+                    usable.append((usable[-1][0], [], result.path, result.fitness))
                 animate(
                     usable,
                     options["plot"],
