@@ -128,7 +128,7 @@ class Result:
             history=self.history,
             title=f"{self.planner} on {self.problem['map'].replace(chr(92), '/').rpartition('/')[2]}",
             caption=self._caption(),
-            resolution=problem.grid.resolution if problem.grid.origin is not None else None,
+            resolution=problem.grid.resolution if problem.grid.metric else None,
             dark=dark,
         )
         if file is not None:

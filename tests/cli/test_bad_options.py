@@ -164,6 +164,14 @@ def test_a_defect_of_ours_is_one_line_that_says_so(cli, monkeypatch) -> None:
     assert one_line(cli("plan"), code=1).startswith("a defect, please report it: ZeroDivisionError: by accident")
 
 
+def test_an_interrupt_within_a_compiled_kernel_is_no_defect(cli, monkeypatch) -> None:
+    def interrupted(*_args, **_keywords):
+        raise SystemError("CPUDispatcher returned a result with an exception set") from KeyboardInterrupt()
+
+    monkeypatch.setattr("pathloom.planning.plan", interrupted)
+    assert one_line(cli("plan"), code=130) == "interrupted"
+
+
 def test_bad_input_in_a_process_of_its_own_is_one_line_without_traceback(process, folder: Path) -> None:
     assert one_line(process("plan", "--map", "gone.map"), code=2).startswith("gone.map: found no such file")
     assert list(folder.iterdir()) == []

@@ -195,6 +195,17 @@ def test_a_point_outside_the_map_is_refused_in_metres(refused, hall) -> None:
     assert refused("plan", "--map", hall, "--world", "--goal", "nan,1").startswith("--goal: hall.yaml: found the point")
 
 
+def test_a_ros_map_is_shown_with_its_place_in_the_world(cli, hall) -> None:
+    shown = cli("maps", "show", hall).out
+    assert "0.25 m a cell, lower-left corner at (1, -2) m, yaw 0.5 rad" in shown
+
+
+def test_metres_that_are_no_numbers_are_refused(refused, hall, folder: Path) -> None:
+    write(folder / "mine.toml", '[problem]\nmap = "hall.yaml"\nworld = true\nstart = [1, "x"]\n')
+    message = "mine.toml: problem.start: found [1, 'x'], allowed x and y in metres"
+    assert refused("plan", "mine.toml") == message
+
+
 def test_a_config_in_metres_takes_options_in_metres(cli, hall, folder: Path) -> None:
     x, y = metres(1, 2)
     write(folder / "mine.toml", f'[problem]\nmap = "hall.yaml"\nworld = true\nstart = [{x}, {y}]\n')

@@ -89,6 +89,13 @@ def test_a_way_straight_up_the_map_looks_north(cli, folder: Path, hall) -> None:
     assert first == pytest.approx({"x": 0.0, "y": 0.0, "z": math.sqrt(0.5), "w": math.sqrt(0.5)})
 
 
+def test_a_map_without_a_place_in_the_world_counts_cells_from_the_lower_left_corner(cli, folder: Path, ring) -> None:
+    cli("plan", "--map", ring, "--export", "a.json")
+    poses = json.loads((folder / "a.json").read_text())["poses"]
+    assert [poses[i]["pose"]["position"]["x"] for i in (0, -1)] == [0.5, 2.5]
+    assert [poses[i]["pose"]["position"]["y"] for i in (0, -1)] == [0.5, 2.5]
+
+
 def test_start_and_goal_in_one_cell_export_one_pose(cli, folder: Path, hall) -> None:
     cli("plan", "--map", hall, "--start", "1,1", "--goal", "1,1", "--export", "a.json")
     poses = json.loads((folder / "a.json").read_text())["poses"]

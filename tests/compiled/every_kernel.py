@@ -27,7 +27,48 @@ def results() -> dict[str, list]:
         for name, value in _results(problem).items():
             parts = value if isinstance(value, tuple) else (value,)
             found[f"{name}, {corners}"] = [part.tolist() if hasattr(part, "tolist") else int(part) for part in parts]
+    for name, value in _oddities().items():
+        parts = value if isinstance(value, tuple) else (value,)
+        found[name] = [part.tolist() if hasattr(part, "tolist") else int(part) for part in parts]
     return found
+
+
+def _oddities() -> dict[str, object]:
+    """Return what comes out where there is little to do, or much."""
+    cells, search, segments = compiled.cells, compiled.search, compiled.segments
+    words = np.array([1, 2**40 + 3, 2**63 + 5, 7], np.uint64)
+    nothing, nobody = np.empty(0, np.int32), np.empty((0, 1), np.int32)
+    split = PathProblem([[0, 1, 0]]).context
+    insertion = (split.blocked, split.moves, 1, 3, 1, 1)
+    squeeze = PathProblem([[0, 1], [1, 0]], start=(0, 0), goal=(1, 1)).context
+    serpentine = np.zeros((21, 20), bool)
+    serpentine[1::4, :-1] = serpentine[3::4, 1:] = True
+    long = PathProblem(serpentine, start=(20, 0), goal=(0, 0)).context
+    apart = np.array([[0, 1, 2], [0, 4, 2], [0, 2, -1]], np.int32)
+    return {
+        "no way": search.octile_path(split.moves, 3, 0, 2),
+        "no straight way": search.any_angle_path(split.blocked, 3, 0, 2, 2, np.zeros(3), np.zeros(3), math.inf, 99),
+        "too little work": search.any_angle_path(np.zeros(9, np.uint8), 3, 6, 2, 2, np.zeros(9), np.zeros(9), 9.0, 1),
+        "nothing inserted": cells.sample_by_insertion(2, 3, 0, 2, nothing, *insertion, 4, 16, True, False, words),
+        "nothing beside": cells.sample_by_insertion(
+            2, 3, 0, 3, nothing, squeeze.blocked, squeeze.moves, 2, 2, 1, 1, 8, 16, True, False, words
+        ),
+        "no walk": compiled.walks.sample_by_walking(2, 5, 0, 2, split.moves, 3, words),
+        "long": search.sample_from_trees(
+            40, long.moves, 20, long.start, long.goal, long.reachable_cells, 1.0, 2.0, words
+        ),
+        "one cell": search.sample_from_trees(2, long.moves, 20, 7, 7, long.reachable_cells, 1.0, 2.0, words),
+        "nothing in common": cells.exchange_tails(apart, np.array([[0, 1]]), 9, False, words),
+        "nothing to move": cells.mutate_neighbour(
+            apart, np.array([2]), np.zeros(9, np.uint8), np.zeros(9, np.uint8), 3, 3, 1, 1, 8, 9, True, False, words
+        ),
+        "no obstacle": segments.clearances(apart, np.zeros(9, np.uint8), np.full(9, np.inf), 3, 3),
+        "one pass": segments.delete_points(apart, np.zeros(9, np.uint8), 3, 2, 1),
+        "steep": segments.flagged_cells(np.array([[0, 7], [7, 0]], np.int32), np.ones(9, np.uint8), 3),
+        "a point": segments.segments_free(split.blocked, 3, *np.array([[0, 1], [0, 1]], np.int32), 2),
+        "nobody": cells.newcomers(nobody, nobody),
+        "few words": np.array([random.below(words, 6) for _ in range(9)]),
+    }  # fmt: skip
 
 
 def _results(problem: PathProblem) -> dict[str, object]:

@@ -91,10 +91,13 @@ def main() -> None:
     except MemoryError as error:
         code = _say(f"found too little memory: {error or 'none is left'}; take a smaller map or population", BAD_INPUT)
     except Exception as error:
-        if os.environ.get("PATHLOOM_TRACEBACK"):
+        if isinstance(error.__cause__, KeyboardInterrupt):  # so a compiled kernel ends that is interrupted in its midst
+            code = _say("interrupted", INTERRUPTED)
+        elif os.environ.get("PATHLOOM_TRACEBACK"):
             raise
-        shown = f"a defect, please report it: {type(error).__name__}: {error}"
-        code = _say(f"{shown} (PATHLOOM_TRACEBACK=1 shows where)", DEFECT)
+        else:
+            shown = f"a defect, please report it: {type(error).__name__}: {error}"
+            code = _say(f"{shown} (PATHLOOM_TRACEBACK=1 shows where)", DEFECT)
     sys.exit(code or DONE)
 
 

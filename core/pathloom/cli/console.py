@@ -1,7 +1,9 @@
 """What commands share on the terminal: two consoles, and progress on long work."""
 
 import json
+import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -101,6 +103,36 @@ def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], Non
         yield watch
     finally:
         _stop(bar)
+
+
+@contextmanager
+def between_generations() -> Iterator[Callable[[], None]]:
+    """Give a function that raises KeyboardInterrupt once Ctrl-C was pressed.
+
+    Within a compiled kernel an interrupt would end in a SystemError, and the
+    best path so far be lost. So the first Ctrl-C waits until the function is
+    called; a second one does not wait.
+    """
+    if threading.current_thread() is not threading.main_thread():  # no other thread may listen to signals
+        yield lambda: None
+        return
+    before = signal.getsignal(signal.SIGINT)
+    pressed = False
+
+    def press(*_: object) -> None:
+        nonlocal pressed
+        pressed = True
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    def check() -> None:
+        if pressed:
+            raise KeyboardInterrupt
+
+    signal.signal(signal.SIGINT, press)
+    try:
+        yield check
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _bar(console: Console) -> Progress:

@@ -76,6 +76,11 @@ class OccupancyGrid:
         """(height, width)."""
         return self.height, self.width
 
+    @property
+    def metric(self) -> bool:
+        """Whether the size of a cell in metres is known: it has a place in the world, or a size of its own."""
+        return self.origin is not None or self.resolution != 1.0
+
     @cached_property
     def free_count(self) -> int:
         """Number of free cells."""

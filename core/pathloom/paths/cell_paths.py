@@ -15,6 +15,12 @@ Path: TypeAlias = NDArray[np.int64]
 """(k, 2), rows and columns of k cells from start to goal."""
 
 
+def flat_ids(cells: NDArray[Any], cols: int) -> NDArray[np.int32]:
+    """Return the flat ids (k,) of cells (k, 2), whatever their integer type."""
+    wide = cells.astype(np.int64, copy=False)
+    return (wide[:, 0] * cols + wide[:, 1]).astype(np.int32)
+
+
 @dataclass(frozen=True, kw_only=True)
 class CellPaths(Representation):
     """Paths as rows of flat cell ids, int32 (n, width), padded with −1.
@@ -37,7 +43,7 @@ class CellPaths(Representation):
         width = max((len(p) for p in paths), default=1)
         population = np.full((len(paths), width), -1, np.int32)
         for row, path in zip(population, paths, strict=True):
-            row[: len(path)] = path[:, 0] * self.cols + path[:, 1]
+            row[: len(path)] = flat_ids(path, self.cols)
         return population
 
     def stack(self, first: Population, second: Population) -> Population:

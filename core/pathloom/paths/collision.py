@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pathloom import compiled
 from pathloom.kernel.component import Component
+from pathloom.paths.cell_paths import flat_ids
 from pathloom.paths.problem import PathProblem
 
 
@@ -33,6 +34,6 @@ class Exact(Collision):
 
     def segments_free(self, a: NDArray[Any], b: NDArray[Any], problem: PathProblem) -> NDArray[np.bool_]:
         it = problem.context
-        first = (a[:, 0] * it.cols + a[:, 1]).astype(np.int32)
-        second = (b[:, 0] * it.cols + b[:, 1]).astype(np.int32)
+        first = flat_ids(a, it.cols)
+        second = flat_ids(b, it.cols)
         return np.asarray(compiled.segments.segments_free(it.blocked, it.cols, first, second, it.policy))

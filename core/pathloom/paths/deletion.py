@@ -24,7 +24,7 @@ def delete_points(population: Population, problem: PathProblem, collision: Colli
     since a point only stays where the path bends behind the one kept before it.
     ``passes``: how often; 0: until nothing changes.
     """
-    if isinstance(collision, Exact):
+    if type(collision) is Exact:  # a class that inherits from it may test otherwise
         it = problem.context
         return np.asarray(compiled.segments.delete_points(population, it.blocked, it.cols, it.policy, passes))
     decode = problem.representation.decode

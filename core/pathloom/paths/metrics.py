@@ -29,6 +29,6 @@ def metrics(path: Path, problem: PathProblem) -> dict[str, Any]:
         "min_clearance": clearance if np.isfinite(clearance) else None,
         "unsafe_nodes": int(compiled.cells.sum_over_nodes(row, it.unsafe, 0, 0)[0]),
     }
-    if problem.grid.origin is not None:
+    if problem.grid.metric:
         found["length_m"] = length * problem.grid.resolution
     return found

@@ -22,7 +22,7 @@ from pathloom.kernel.evaluation import Floats, Objective
 from pathloom.kernel.operators import Crossover, Indices, Mutation, Repair, Sampling
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
-from pathloom.paths.cell_paths import Path
+from pathloom.paths.cell_paths import Path, flat_ids
 from pathloom.paths.problem import PathProblem
 
 
@@ -164,7 +164,7 @@ def legal(paths: Sequence[Any], problem: PathProblem, owner: Any) -> NDArray[np.
             continue
         if (cells < 0).any() or (cells[:, 0] >= it.rows).any() or (cells[:, 1] >= it.cols).any():
             continue
-        ids = (cells[:, 0] * it.cols + cells[:, 1]).astype(np.int32)
+        ids = flat_ids(cells, it.cols)
         ok[k] = True
         first.append(ids[:-1])
         second.append(ids[1:])
@@ -191,5 +191,5 @@ def _with(
     out[:, : population.shape[1]] = population
     for k, path in good.items():
         out[k] = -1
-        out[k, : len(path)] = path[:, 0] * problem.context.cols + path[:, 1]
+        out[k, : len(path)] = flat_ids(path, problem.context.cols)
     return out

@@ -61,10 +61,7 @@ class PathProblem(Problem):
         if self.corners not in get_args(Corners):
             hint = closest(str(self.corners), get_args(Corners))
             raise ProblemError(f"corners: found {self.corners!r}, allowed {', '.join(get_args(Corners))}; {hint}")
-        radius = self.radius
-        if isinstance(radius, bool) or not isinstance(radius, (int, float, np.number)) or not 0 <= radius < math.inf:
-            raise ProblemError(f"radius: found {self.radius!r}, allowed a number in [0, inf)")
-        object.__setattr__(self, "radius", float(self.radius))
+        object.__setattr__(self, "radius", self._length(self.radius))
         for end in ("start", "goal"):
             object.__setattr__(self, end, self._cell(end, getattr(self, end)))
         for end in ("start", "goal"):
@@ -94,6 +91,17 @@ class PathProblem(Problem):
 
     def __getstate__(self) -> dict[str, Any]:
         return {f.name: getattr(self, f.name) for f in fields(self)}  # caches are worked out again
+
+    @staticmethod
+    def _length(radius: Any) -> float:
+        try:
+            if isinstance(radius, bool) or not isinstance(radius, (int, float, np.number)):
+                raise TypeError
+            if 0.0 <= (value := float(radius)) < math.inf:
+                return value
+        except (TypeError, OverflowError):
+            pass  # said below, as for any other value
+        raise ProblemError(f"radius: found {radius!r}, allowed a number in [0, inf)")
 
     def _cell(self, end: str, value: Any) -> Cell:
         height, width = self.grid.shape
@@ -126,6 +134,6 @@ class PathProblem(Problem):
         near = free[np.argmin(((free - cell) ** 2).sum(axis=1))]
         cause = "is an obstacle"
         if not self.grid.occupied[cell]:
-            unit = "m" if self.grid.origin is not None else "cells"
+            unit = "m" if self.grid.metric else "cells"
             cause = f"is closer to an obstacle than the radius {self.radius:g} {unit}"
         raise ProblemError(f"{end}: cell {cell[0]},{cell[1]} {cause}; the nearest free cell is {near[0]},{near[1]}")
