@@ -126,7 +126,7 @@ class Result:
             path=self.path,
             unrefined=self.unrefined,
             history=self.history,
-            title=f"{self.planner} on {self.problem['map'].replace(chr(92), '/').rpartition('/')[2]}",
+            title=f"{self.planner} on {self._map_title()}",
             caption=self._caption(),
             resolution=problem.grid.resolution if problem.grid.metric else None,
             dark=dark,
@@ -134,6 +134,10 @@ class Result:
         if file is not None:
             save(figure, file)
         return figure
+
+    def _map_title(self) -> str:
+        name = str(self.problem["map"]).replace("\\", "/").rpartition("/")[2]
+        return name.encode("utf-8", "replace").decode()  # a file's name need not be text
 
     def _caption(self) -> str:
         if not self.found:

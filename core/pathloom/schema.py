@@ -1,6 +1,5 @@
 """The JSON schema of a config, made of what the components declare."""
 
-import dataclasses
 import typing
 from typing import Any
 
@@ -12,93 +11,132 @@ from pathloom.kernel.compose import NONE
 from pathloom.kernel.evaluation import Objective, Terms
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import Entry, Registry
+from pathloom.paths.context import POLICIES
+from pathloom.paths.problem import CORNER_NAMES
+
+Schema = dict[str, Any]
+
+NUMBER = {"type": "number", "minimum": 0}
+PLACE: Schema = {
+    "anyOf": [
+        {"enum": list(CORNER_NAMES)},
+        {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2},
+    ]
+}
+PROBLEM: Schema = {
+    "map": {"type": "string"},
+    "start": PLACE,
+    "goal": PLACE,
+    "corners": {"enum": sorted(POLICIES)},
+    "radius": NUMBER,
+    "world": {"type": "boolean"},
+    "unknown": {"enum": ["occupied", "free"]},
+    "threshold": {"type": "integer", "minimum": 0, "maximum": 255},
+}
+assert PROBLEM.keys() == ProblemSpec.__dataclass_fields__.keys()
 
 
-def schema_of_config(registry: Registry) -> dict[str, Any]:
+def schema_of_config(registry: Registry) -> Schema:
     """Return the JSON schema (draft 2020-12) that every valid config file satisfies."""
-    entries = list(registry.all_entries())
-    kinds = sorted({e.component.kind for e in entries if e.component.kind != "map"})
-    definitions: dict[str, Any] = {}
-    for kind in kinds:
-        of_kind = [e for e in entries if e.component.kind == kind]
-        names = sorted({n for e in of_kind for n in (e.name, e.component.name)})
-        definitions[kind] = {
-            "anyOf": [
-                {"type": "string", "enum": names},
-                *({"$ref": f"#/$defs/{kind}:{e.name}"} for e in of_kind),
-                {
-                    "type": "object",
-                    "not": {"required": ["use"]},
-                    "description": "refines what the slot holds",
-                },
-            ]
-        }
-        for entry in of_kind:
-            definitions[f"{kind}:{entry.name}"] = _component(entry, kinds)
-    problem = {f.name: _of_type(f.type) for f in dataclasses.fields(ProblemSpec)}
+    writer = _Writer(registry)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "pathloom config",
-        "type": "object",
-        "additionalProperties": False,
-        "properties": {
-            "problem": {"type": "object", "additionalProperties": False, "properties": problem},
-            "planner": {"$ref": f"#/$defs/{Planner.kind}"},
-            "run": {
-                "type": "object",
-                "additionalProperties": False,
-                "properties": {
-                    "seed": {"type": "integer", "minimum": 0},
-                    "time_limit": {"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": NONE}]},
-                },
-            },
-        },
-        "$defs": definitions,
+        **_table(
+            {
+                "problem": _table(PROBLEM),
+                "planner": {"$ref": f"#/$defs/{Planner.kind}"},
+                "run": _table(
+                    {
+                        "seed": {"type": "integer", "minimum": 0},
+                        "time_limit": {"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": NONE}]},
+                    }
+                ),
+            }
+        ),
+        "$defs": writer.definitions(),
     }
 
 
-def _component(entry: Entry, kinds: list[str]) -> dict[str, Any]:
-    properties: dict[str, Any] = {"use": {"enum": sorted({entry.name, entry.component.name})}}
-    for parameter in parameters(entry.component):
-        properties[parameter.name] = _parameter(parameter, kinds)
-    required = [p.name for p in parameters(entry.component) if p.required]
-    return {
-        "type": "object",
-        "description": (entry.component.__doc__ or "").strip().partition("\n")[0],
-        "properties": properties,
-        "required": ["use", *required],
-        "additionalProperties": False,
-    }
+class _Writer:
+    """Writes one definition for each kind and each component."""
+
+    def __init__(self, registry: Registry) -> None:
+        self._entries = [e for e in registry.all_entries() if e.component.kind != "map"]
+        self._kinds = sorted({e.component.kind for e in self._entries})
+
+    def definitions(self) -> Schema:
+        found: Schema = {}
+        for kind in self._kinds:
+            entries = self._of(kind)
+            found[kind] = {
+                "anyOf": [
+                    {"type": "string", "enum": _names(entries)},
+                    *({"$ref": _reference(e)} for e in entries),
+                    self._refinement(entries),
+                ]
+            }
+            found |= {_reference(e).rpartition("/")[2]: self._component(e) for e in entries}
+        if Objective.kind in self._kinds:
+            found["terms"] = self._terms()
+        return found
+
+    def _of(self, kind: str) -> list[Entry]:
+        return [e for e in self._entries if e.component.kind == kind]
+
+    def _component(self, entry: Entry, **more: Any) -> Schema:
+        fields = {p.name: self._parameter(p) for p in parameters(entry.component)}
+        required = [p.name for p in parameters(entry.component) if p.required]
+        about = (entry.component.__doc__ or "").strip().partition("\n")[0]
+        table = _table({"use": {"enum": _names([entry])}, **fields, **more}, "use", *required)
+        return {"description": about, **table}
+
+    def _refinement(self, entries: list[Entry]) -> Schema:
+        """Return the schema of a table without ``use``: fields of whatever stands in the slot."""
+        fields: dict[str, list[Schema]] = {}
+        for entry in entries:
+            for parameter in parameters(entry.component):
+                one = self._parameter(parameter)
+                if one not in (known := fields.setdefault(parameter.name, [])):
+                    known.append(one)
+        return _table({name: forms[0] if len(forms) == 1 else {"anyOf": forms} for name, forms in fields.items()})
+
+    def _parameter(self, parameter: Parameter) -> Schema:
+        if kind := parameter.slot or parameter.slots:
+            one: Schema = {"$ref": f"#/$defs/{kind.kind}"} if kind.kind in self._kinds else {"not": {}}
+            if parameter.slots is not None:
+                return {"anyOf": [{"type": "array", "items": one}, one]}
+            return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
+        if parameter.hint is Terms:
+            return {"$ref": "#/$defs/terms"}
+        return _of_type(parameter.hint)
+
+    def _terms(self) -> Schema:
+        entries = self._of(Objective.kind)
+        full = [self._component(e, weight=NUMBER) for e in entries]
+        by_name: Schema = {}
+        for entry in entries:
+            own = self._component(entry, weight=NUMBER)
+            by_label = {**own, "required": [r for r in own["required"] if r != "use"]}
+            for name in _names([entry]):  # the label names the objective: a weight alone will do
+                by_name[name] = {"anyOf": [NUMBER, {"enum": _names(entries)}, by_label, *full]}
+        other = {"anyOf": [{"enum": _names(entries)}, *full]}
+        return {"type": "object", "minProperties": 1, "properties": by_name, "additionalProperties": other}
 
 
-def _parameter(parameter: Parameter, kinds: list[str]) -> dict[str, Any]:
-    if parameter.slot is not None:
-        known = {"$ref": f"#/$defs/{parameter.slot.kind}"} if parameter.slot.kind in kinds else {"type": "object"}
-        return {"anyOf": [known, {"const": NONE}]} if parameter.optional else known
-    if parameter.slots is not None:
-        one = {"$ref": f"#/$defs/{parameter.slots.kind}"} if parameter.slots.kind in kinds else {"type": "object"}
-        return {"anyOf": [{"type": "array", "items": one}, one]}
-    if parameter.hint is Terms:
-        term = {
-            "anyOf": [
-                {"type": "number", "minimum": 0},
-                {"type": "string"},
-                {
-                    "type": "object",
-                    "properties": {"use": {"type": "string"}, "weight": {"type": "number", "minimum": 0}},
-                },
-            ]
-        }
-        return {
-            "type": "object",
-            "additionalProperties": term,
-            "minProperties": 1,
-            "description": Objective.kind,
-        }
-    return _of_type(parameter.hint)
+def _names(entries: list[Entry]) -> list[str]:
+    return sorted({name for e in entries for name in (e.name, e.component.name)})
 
 
-def _of_type(hint: Any) -> dict[str, Any]:
+def _reference(entry: Entry) -> str:
+    return f"#/$defs/{entry.component.kind}:{entry.name.replace('/', '.')}"
+
+
+def _table(properties: Schema, *required: str) -> Schema:
+    return {"type": "object", "properties": properties, "required": [*required], "additionalProperties": False}
+
+
+def _of_type(hint: Any) -> Schema:
     if hint is Any or (isinstance(hint, type) and issubclass(hint, Component)):
         return {}
     if typing.get_origin(hint) is typing.Annotated and typing.get_origin(typing.get_args(hint)[0]) is tuple:

@@ -2,6 +2,7 @@
 
 import math
 import random
+from itertools import pairwise
 
 STEPS = [(r, c) for r in (-1, 0, 1) for c in (-1, 0, 1) if (r, c) != (0, 0)]
 
@@ -72,7 +73,7 @@ class PlainImga:
         return self.without_loops([self.start, *first, *second]) if second else None
 
     def cost(self, path):
-        length = sum(math.hypot(a[0] - b[0], a[1] - b[1]) for a, b in zip(path, path[1:], strict=False))
+        length = sum(math.hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairwise(path))
         safety = sum(5 for cell in path[:-1] if cell in self.unsafe)
         energy = 0
         for a, b, c in zip(path, path[1:], path[2:], strict=False):
@@ -127,7 +128,7 @@ class PlainImga:
             if path is not None and tuple(path) not in seen:
                 seen.add(tuple(path))
                 paths.append(path)
-        best = math.inf
+        costs, best = [], math.inf
         for generation in range(generations + 1):
             if generation:
                 ranked = [p for _, p in sorted(zip(costs, paths, strict=True), key=lambda pair: pair[0])]
@@ -140,5 +141,5 @@ class PlainImga:
                 paths = [self.mutate(p) if self.random.random() < 0.2 else p for p in paths]
             costs = [self.cost(p) for p in paths]
             for path in map(self.delete, paths):
-                best = min(best, sum(math.dist(a, b) for a, b in zip(path, path[1:], strict=False)))
+                best = min(best, sum(math.dist(a, b) for a, b in pairwise(path)))
         return best

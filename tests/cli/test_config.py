@@ -38,7 +38,10 @@ WRONG = {
     "an unknown component": ('[planner]\nselection = "roulete"\n', "planner.selection: no selection is called"),
     "an unknown field": ("[planner.crossover]\nraet = 0.5\n", "planner.crossover.raet: 'imga/common-node' has no"),
     "a field out of range": ("[planner.crossover]\nrate = 1.5\n", "planner.crossover.rate is a number in [0, 1]"),
-    "a field of another type": ('[planner]\npopulation = "many"\n', "planner.population is an integer in [1, inf)"),
+    "a field of another type": (
+        '[planner]\npopulation = "many"\n',
+        "planner.population is an integer in [1, 2147483647]",
+    ),
     "an unknown objective": ("[planner.objectives]\nlenght = 1\n", "planner.objectives.lenght: no objective is called"),
     "no objective": ("[planner.objectives]\n", "planner.objectives is a table with at least one term"),
     "an unknown termination": (

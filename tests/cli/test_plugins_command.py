@@ -40,7 +40,7 @@ def test_show_of_a_planner_tells_reference_fidelity_assumptions_and_parameters_w
     assert "doi:10.1155/2021/8836615" in shown
     assert "Fidelity: faithful" in shown
     assert "  - There is no elitism" in shown
-    assert "an integer in [1, inf)" in shown
+    assert "an integer in [1, 2147483647]" in shown
     assert "Number of individuals" in shown
 
 

@@ -113,7 +113,7 @@ def test_numbers_may_be_written_as_ros_writes_them(tmp_path: Path, number: str) 
         ("negate: 0", "negate: 0\nmode: [raw]", "mode: found ['raw']"),
         ("occupied_thresh", "occupied_tresh", "occupied_thresh: found no such key"),
         ("occupied_thresh", "occupied_tresh", "did you mean 'occupied_tresh'?"),
-        ("hall.png", "hull.png", "image: found no file 'hull.png', allowed a file beside the YAML"),
+        ("hall.png", "hull.png", "image: found no file 'hull.png', allowed an image that exists"),
         ("hall.png", "hull.png", "did you mean 'hall.png'?"),
         ("hall.png", "http://example.org/hall.png", "image: found the address 'http://"),
         ("hall.png", "''", "image: found '', allowed the path of an image"),

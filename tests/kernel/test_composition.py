@@ -91,14 +91,14 @@ def test_a_dotted_path_changes_one_thing(registry, path, value, found):
         ({"selection": 3}, "planner.selection: a selection is a name or a table with 'use'; got 3"),
         ({"selection": "none"}, "planner.selection: no selection is called 'none'"),
         ({"crossover": {"rate": 1.5}}, r"planner.crossover.rate is a number in \[0, 1\]; got 1.5"),
-        ({"population": 0}, r"planner.population is an integer in \[1, inf\); got 0"),
-        ({"population": "many"}, r"population is an integer in \[1, inf\); got 'many'"),
+        ({"population": 0}, r"planner.population is an integer in \[1, 2147483647\]; got 0"),
+        ({"population": "many"}, r"population is an integer in \[1, 2147483647\]; got 'many'"),
         ({"mutation": {"rate": float("nan")}}, r"rate is a number in \[0, 1\]; got nan"),
         ({"sampling": {"reading": "loose"}}, "reading is one of 'guarded', 'as-printed'; got 'loose'"),
         ({"objectives": {}}, "planner.objectives is a table with at least one term; got none"),
         ({"objectives": {"lenght": 1}}, "planner.objectives.lenght: no objective is called 'lenght'; did you mean 'length'?"),
         ({"objectives": {"length": -1}}, r"objectives.length: weight is a number in \[0, inf\); got -1.0"),
-        ({"termination": [{"use": "max-generations", "limit": 0}]}, r"limit is an integer in \[1, inf\); got 0"),
+        ({"termination": [{"use": "max-generations", "limit": 0}]}, r"limit is an integer in \[1, 2147483647\]; got 0"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_said_where_it_is_with_what_is_allowed_and_meant(registry, changes, message):

@@ -127,14 +127,14 @@ def test_a_radius_that_is_no_length_is_refused(radius) -> None:
 @pytest.mark.parametrize(
     ("corners", "hint"),
     [
-        ("strickt", "did you mean 'strict'?"),
-        ("no_squeeze", "did you mean 'no-squeeze'?"),
-        ("anything", "known: allow, no-squeeze, strict"),
-        (None, "known: allow, no-squeeze, strict"),
+        ("strickt", "; did you mean 'strict'?"),
+        ("no_squeeze", "; did you mean 'no-squeeze'?"),
+        ("anything", ""),
+        (None, ""),
     ],
 )
 def test_an_unknown_corner_policy_is_refused_with_a_hint(corners, hint: str) -> None:
-    assert refusal(corners=corners) == f"corners: found {corners!r}, allowed strict, no-squeeze, allow; {hint}"
+    assert refusal(corners=corners) == f"corners: found {corners!r}, allowed strict, no-squeeze, allow{hint}"
 
 
 def test_an_unreachable_goal_is_no_error() -> None:

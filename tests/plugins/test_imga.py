@@ -2,6 +2,7 @@
 
 import heapq
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -162,7 +163,7 @@ def runs(problem, planner, seeds=30):
 
 def _turns(path):
     steps = np.diff(path, axis=0)
-    return sum(a[0] * b[1] != a[1] * b[0] or a @ b < 0 for a, b in zip(steps, steps[1:], strict=False))
+    return sum(a[0] * b[1] != a[1] * b[0] or a @ b < 0 for a, b in pairwise(steps))
 
 
 def _length(path):

@@ -372,7 +372,7 @@ def mutate_neighbour(population, chosen, blocked, moves, rows, cols, sign_r, sig
                         stack,
                         state,
                     )
-                if made >= 0 and made + count - i - 2 <= path.shape[0]:
+                if made >= 0:
                     copy(path, made, row, i + 2, count - i - 2)
                     made += count - i - 2
                     if not loops:

@@ -244,5 +244,11 @@ def _image_path(path: FilePath, value: object) -> Path:
     except (OSError, ValueError) as error:
         raise refusal(path, "image", shown(value), "the path of a file") from error
     if missing:
-        raise refusal(path, "image", f"no file {shown(value)}", "a file beside the YAML", neighbour(image))
+        raise refusal(
+            path,
+            "image",
+            f"no file {shown(value)}",
+            "an image that exists, named from the folder of the YAML",
+            neighbour(image),
+        )
     return image

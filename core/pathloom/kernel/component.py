@@ -21,9 +21,11 @@ from pathloom.errors import ConfigError
 
 Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 """A probability or a fraction."""
-Count = Annotated[int, msgspec.Meta(ge=1)]
+MOST = 2**31 - 1
+"""The largest whole number that a parameter takes."""
+Count = Annotated[int, msgspec.Meta(ge=1, le=MOST)]
 """At least one."""
-Whole = Annotated[int, msgspec.Meta(ge=0)]
+Whole = Annotated[int, msgspec.Meta(ge=0, le=MOST)]
 """Zero or more."""
 NonNegative = Annotated[float, msgspec.Meta(ge=0.0)]
 """A real number, zero or more."""
@@ -198,7 +200,9 @@ def describe(hint: Any) -> str:
         low, high = (limits.ge, limits.gt), (limits.le, limits.lt)
         if any(v is not None for v in (*low, *high)):
             left = f"[{limits.ge:g}" if limits.ge is not None else f"({limits.gt if limits.gt is not None else '-inf'}"
-            right = f"{limits.le:g}]" if limits.le is not None else f"{limits.lt if limits.lt is not None else 'inf'})"
+            right = (
+                f"{limits.le:.10g}]" if limits.le is not None else f"{limits.lt if limits.lt is not None else 'inf'})"
+            )
             words += f" in {left}, {right}"
         return words
     if origin is Literal:
@@ -210,4 +214,4 @@ def describe(hint: Any) -> str:
         return f"a {hint.kind}"
     if origin is not None and isinstance(origin, type) and issubclass(origin, Mapping):
         return "a table"
-    return _WORDS.get(hint, getattr(hint, "__name__", str(hint)))
+    return _WORDS.get(hint) or str(getattr(hint, "__words__", getattr(hint, "__name__", hint)))

@@ -105,6 +105,12 @@ def override(component: C, path: str, value: Any, registry: Registry | None = No
                 )
             index = having[0]
         changed = list(current)
+        if not field and value == NONE:
+            del changed[index]
+            return refine(component, {head: tuple(changed)}, registry, where)
+        if not field:
+            changed[index] = value
+            return refine(component, {head: changed}, registry, where)
         changed[index] = override(changed[index], field, value, registry, here)
         return refine(component, {head: tuple(changed)}, registry, where)
     if isinstance(current, Component):

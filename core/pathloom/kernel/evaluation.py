@@ -71,6 +71,7 @@ class Terms(tuple[Term, ...]):
     """The objectives of a planner, in order; labels are distinct."""
 
     __slots__ = ()
+    __words__: ClassVar[str] = "a table of objectives with weights"
 
     def __new__(cls, terms: Iterable[Term] | Mapping[str, Objective | tuple[Objective, float]] = ()) -> Self:
         """Make the terms from a mapping of labels to objectives, or to pairs with a weight."""

@@ -7,7 +7,7 @@ loaded when a name first needs it, and costs only itself when it is broken.
 
 import importlib.metadata
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, is_dataclass
+from dataclasses import dataclass
 from inspect import isabstract
 from typing import Any, TypeAlias
 
@@ -96,10 +96,10 @@ def _check_component(component: object) -> None:
         raise PluginError(f"registers {shown}, which inherits from no kind of component")
     if not component.kind:
         raise PluginError(f"registers {shown}, which has no kind: inherit from Sampling, Mutation, …")
-    if not is_dataclass(component) or not component.__dataclass_params__.frozen:
+    if "__dataclass_params__" not in vars(component) or not component.__dataclass_params__.frozen:  # type: ignore[attr-defined]
         raise PluginError(
             f"registers {shown}, which is not a frozen dataclass: add @dataclass(frozen=True, kw_only=True)"
         )
     if isabstract(component):
-        lacks = ", ".join(sorted(component.__abstractmethods__))
+        lacks = ", ".join(sorted(vars(component)["__abstractmethods__"]))
         raise PluginError(f"registers {shown}, which lacks {lacks}")

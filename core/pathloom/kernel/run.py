@@ -86,7 +86,10 @@ def run(
             phases.setdefault("sampling", now)
             if time_limit is not None and now >= time_limit:
                 break
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, SystemError) as error:
+        # An interrupt that arrives while a kernel runs surfaces as the cause of a SystemError.
+        if isinstance(error, SystemError) and not isinstance(error.__cause__, KeyboardInterrupt):
+            raise
         interrupted = True
     searched = time.perf_counter() - began
     phases.setdefault("sampling", searched)

@@ -24,7 +24,7 @@ STEPS = ((-1, 0), (-1, 1), (0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1))
 class Context:
     """Masks and tables of one blocked map under one corner policy.
 
-    All tables are flat, row after row, and read-only.
+    All tables are flat, row after row; nobody writes to them.
     """
 
     occupied: NDArray[np.bool_]

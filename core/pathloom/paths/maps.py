@@ -10,7 +10,8 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom.errors import MapError, PathloomError
+from pathloom.errors import MapError, PathloomError, PluginError
+from pathloom.files import LARGEST_MAP
 from pathloom.grid import OccupancyGrid, labels, read_map
 from pathloom.kernel.component import Component, Count, Whole
 from pathloom.kernel.registry import Registry, default_registry
@@ -66,6 +67,8 @@ class MapFamily(Map, ABC):
         """Return one map (size, size), True for obstacles, connected or not."""
 
     def grid(self, corners: Corners = "strict") -> OccupancyGrid:
+        if self.size**2 > LARGEST_MAP:
+            raise MapError(f"{self.title}: found a size of {self.size}, allowed at most {int(LARGEST_MAP**0.5)}")
         for sub_seed in range(DRAWS):
             rng = np.random.default_rng(np.random.SeedSequence([self.seed, sub_seed]))
             occupied = self.draw(rng)
@@ -118,12 +121,17 @@ def map_of(name: str, *, registry: Registry | None = None) -> Map:
                 more = "one map; :xCOUNT stands for several" if re.fullmatch(r"x\d+", part) else "OBSTACLES or sSEED"
                 raise MapError(f"{name}: found {part!r}, allowed {more}, as in random-20:75:s3 or blocks-50:20%")
         return family(size=int(generated["size"]), obstacles=obstacles, seed=seed)
-    entries = list(registry.all_entries(Map))
-    found = next((e for e in entries if name in (e.name, e.component.name)), None)
-    if found is None or issubclass(found.component, MapFamily):
+    try:
+        component = registry.find(Map, name)
+    except PluginError:
+        raise
+    except PathloomError:
+        component = None
+    if component is None or issubclass(component, MapFamily):
+        entries = registry.all_entries(Map)
         names = [e.component.name + ("-20" if issubclass(e.component, MapFamily) else "") for e in entries]
         raise MapError(f"{name}: no map and no file is called so; {closest(name, names)}")
-    return found.component()  # type: ignore[return-value]
+    return component()
 
 
 def _family(name: str, registry: Registry) -> type[MapFamily] | None:

@@ -10,7 +10,7 @@ import numpy as np
 from pathloom.errors import ProblemError
 from pathloom.grid import OccupancyGrid, inflate
 from pathloom.kernel.problem import Problem
-from pathloom.naming import closest
+from pathloom.naming import closest, meant
 from pathloom.paths.cell_paths import CellPaths
 from pathloom.paths.context import Context, Corners
 
@@ -58,9 +58,10 @@ class PathProblem(Problem):
     def __post_init__(self) -> None:
         if not isinstance(self.grid, OccupancyGrid):
             object.__setattr__(self, "grid", OccupancyGrid(self.grid))
-        if self.corners not in get_args(Corners):
-            hint = closest(str(self.corners), get_args(Corners))
-            raise ProblemError(f"corners: found {self.corners!r}, allowed {', '.join(get_args(Corners))}; {hint}")
+        if not isinstance(self.corners, str) or self.corners not in get_args(Corners):
+            hint = meant(str(self.corners), get_args(Corners))
+            allowed = ", ".join(get_args(Corners)) + (f"; {hint}" if hint else "")
+            raise ProblemError(f"corners: found {self.corners!r}, allowed {allowed}")
         object.__setattr__(self, "radius", self._length(self.radius))
         for end in ("start", "goal"):
             object.__setattr__(self, end, self._cell(end, getattr(self, end)))
@@ -113,7 +114,7 @@ class PathProblem(Problem):
             return (height - 1 if "bottom" in value else 0), (width - 1 if "right" in value else 0)
         try:
             row, col = value
-            if any(isinstance(v, bool) or int(v) != v for v in (row, col)):
+            if any(isinstance(v, (bool, np.bool_)) or int(v) != v for v in (row, col)):
                 raise ValueError
         except (TypeError, ValueError, OverflowError):
             raise ProblemError(f"{end}: found {value!r}, allowed (row, column) or the name of a corner") from None
