@@ -84,12 +84,16 @@ def plan(
         reason = f"the goal {r1},{c1} cannot be reached from {r0},{c0} under the corner policy {problem.corners!r}"
         return Result(status="unreachable", reason=reason, **facts)
 
-    loaded = seconds_loading()
-    finished = run(problem, composed, seed, time_limit=time_limit, watch=watch)
-    phases = dict(finished.phases)
-    # Kernels are loaded, once even compiled, by whoever first needs them: that is no merit or fault of the planner.
-    phases["loading"] = min(seconds_loading() - loaded, phases["sampling"])
-    phases["sampling"] -= phases["loading"]
+    loaded = [seconds_loading()]
+
+    def seen(state: State) -> None:
+        if len(loaded) == 1:
+            loaded.append(seconds_loading())
+        if watch is not None:
+            watch(state)
+
+    finished = run(problem, composed, seed, time_limit=time_limit, watch=seen)
+    phases = _without_loading(finished.phases, [*loaded, seconds_loading()])
     state, outcome = finished.state, finished.outcome
     path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
     status: Status = "found" if path is not None else "not-found"
@@ -100,6 +104,7 @@ def plan(
         "phases": phases,
         "counts": dict(sorted(state.counts.items())) if state else {},
     }
+    facts["interrupted"] = finished.interrupted
     if state is not None:
         facts["history"] = {k: list(v) for k, v in vars(state.history).items()}
     if path is not None:
@@ -111,15 +116,11 @@ def plan(
             facts["world"] = problem.grid.world(path)
     if optimum:
         length = facts["metrics"]["length"] if path is not None else None
-        facts["optimum"], facts["gap"] = _references(problem, length)
-    return Result(
-        status=status,
-        path=path,
-        unrefined=unrefined,
-        reason=reason,
-        interrupted=finished.interrupted,
-        **facts,
-    )
+        try:
+            facts["optimum"], facts["gap"] = _references(problem, length)
+        except KeyboardInterrupt:  # the path is there already
+            facts["interrupted"] = True
+    return Result(status=status, path=path, unrefined=unrefined, reason=reason, **facts)
 
 
 def iterate(
@@ -159,6 +160,24 @@ def _verified(problem: PathProblem, solution: Any, found: Any, reason: str) -> t
     if unrefined is not None:
         return unrefined, unrefined, f"the refined path {why}; its points were restored"
     return None, None, f"the best path of the search {why}"
+
+
+def _without_loading(phases: Mapping[str, float], loaded: list[float]) -> dict[str, float]:
+    """Return the phases without the loading of kernels, which becomes a phase of its own.
+
+    Kernels are loaded, once even compiled, by whoever first needs them: that is
+    no merit or fault of the planner. ``loaded``: the clock of loading before the
+    run, after sampling where that was reached, and after the run.
+    """
+    left = dict(phases)
+    shares = {"sampling": loaded[1] - loaded[0], "evolution": loaded[-1] - loaded[1]}
+    for phase, share in shares.items():
+        rest = share
+        for name in (phase, "refinement"):  # what the evolution cannot have taken, the refinement loaded
+            taken = min(rest, left[name])
+            left[name] -= taken
+            rest -= taken
+    return {**left, "loading": sum(shares.values())}
 
 
 def _references(problem: PathProblem, length: float | None) -> tuple[dict[str, float | None], dict[str, float | None]]:

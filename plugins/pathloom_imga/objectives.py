@@ -25,7 +25,7 @@ class UnsafeNode(Objective):
         it = path_problem(problem).context
         table = it.unsafe if self.per == "node" else it.obstacles_near
         # eq. (6) sums to n - 1: the last node is left out
-        return np.asarray(self.penalty * compiled.cells.sum_over_nodes(population, table, 0, 1))
+        return np.asarray(self.penalty * compiled.measures.sum_over_nodes(population, table, 0, 1))
 
 
 Price = Annotated[tuple[float, float, float], msgspec.Meta(description="a price for each of three classes")]
@@ -54,5 +54,5 @@ class QuadrantEnergy(Objective):
         it = path_problem(problem).context
         by_angle = it.aligned or self.by_angle == "always"
         return np.asarray(
-            compiled.cells.quadrant_energy(population, it.cols, it.goal, *it.signs, np.array(self.price), by_angle)
+            compiled.measures.quadrant_energy(population, it.cols, it.goal, *it.signs, np.array(self.price), by_angle)
         )

@@ -31,9 +31,14 @@ def test_out_is_written_beside_table_and_picture(cli, folder: Path) -> None:
     assert json.loads((folder / "a.json").read_text())["status"] == "found"
 
 
-def test_out_says_as_well_that_there_is_no_path(cli, folder: Path, wall) -> None:
-    assert cli("plan", "--map", wall, "--out", "a.json").code == 3
-    assert json.loads((folder / "a.json").read_text())["status"] == "unreachable"
+def test_a_search_without_result_is_written_like_any_other(cli, folder: Path) -> None:
+    assert cli("plan", "--map", "maze-21:1:s1", "--planner", "imga", "--out", "a.json").code == 3
+    assert json.loads((folder / "a.json").read_text())["status"] == "not-found"
+
+
+def test_for_an_unreachable_goal_nothing_is_written(cli, folder: Path, wall) -> None:
+    assert cli("plan", "--map", wall, "--out", "a.json", "--plot", "a.png", "--export", "a.csv").code == 3
+    assert not list(folder.glob("a.*"))
 
 
 def test_what_is_written_can_be_read_by_the_package(cli, folder: Path) -> None:

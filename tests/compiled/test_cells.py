@@ -19,14 +19,14 @@ def test_lengths_are_sums_of_distances(data, shape) -> None:
     paths = data.draw(st.lists(naive.paths_on(shape), min_size=1, max_size=4))
     population = naive.packed(paths, shape[1], data.draw(st.integers(0, 9)))
     expected = [naive.length(path) for path in paths]
-    assert compiled.cells.lengths(population, shape[1]) == pytest.approx(expected, rel=1e-12)
+    assert compiled.measures.lengths(population, shape[1]) == pytest.approx(expected, rel=1e-12)
 
 
 def test_paths_of_single_steps_are_equally_long_in_any_order() -> None:
     up_first = ((3, 0), (2, 0), (1, 1), (0, 1), (0, 2), (1, 3))
     down_first = ((0, 0), (1, 1), (1, 2), (2, 2), (3, 2), (2, 3))
     population = naive.packed([up_first, down_first], 4)
-    first, second = compiled.cells.lengths(population, 4)
+    first, second = compiled.measures.lengths(population, 4)
     assert first == second == 3 + 2 * math.sqrt(2)
 
 
@@ -42,17 +42,17 @@ def test_rows_are_told_apart_at_the_edges_of_every_width(cols: int) -> None:
 @examples(100)
 def test_turns_and_angles_are_those_of_directions_in_lowest_terms(data, shape) -> None:
     paths = data.draw(st.lists(naive.paths_on(shape), min_size=1, max_size=4))
-    found = compiled.cells.turns(naive.packed(paths, shape[1], data.draw(st.integers(0, 9))), shape[1])
+    found = compiled.measures.turns(naive.packed(paths, shape[1], data.draw(st.integers(0, 9))), shape[1])
     assert found[:, 0].tolist() == [naive.turns(path) for path in paths]
     assert found[:, 1] == pytest.approx([naive.turn_angle(path) for path in paths], abs=1e-12)
 
 
 def test_going_straight_back_is_one_turn_of_pi() -> None:
-    assert compiled.cells.turns(naive.packed([((0, 0), (0, 2), (0, 1))], 3), 3).tolist() == [[1.0, math.pi]]
+    assert compiled.measures.turns(naive.packed([((0, 0), (0, 2), (0, 1))], 3), 3).tolist() == [[1.0, math.pi]]
 
 
 def test_steps_of_other_lengths_in_one_direction_are_no_turn() -> None:
-    assert compiled.cells.turns(naive.packed([((0, 0), (1, 2), (3, 6))], 7), 7).tolist() == [[0.0, 0.0]]
+    assert compiled.measures.turns(naive.packed([((0, 0), (1, 2), (3, 6))], 7), 7).tolist() == [[0.0, 0.0]]
 
 
 @given(data=st.data(), shape=st.tuples(st.integers(1, 7), st.integers(1, 7)), skips=st.tuples(*[st.integers(0, 2)] * 2))
@@ -63,7 +63,7 @@ def test_sums_over_nodes_skip_the_ends(data, shape, skips) -> None:
     ids = [[r * shape[1] + c for r, c in path] for path in paths]
     expected = [sum(int(table[cell]) for cell in row[skips[0] : max(len(row) - skips[1], 0)]) for row in ids]
     population = naive.packed(paths, shape[1], data.draw(st.integers(0, 9)))
-    assert compiled.cells.sum_over_nodes(population, table, *skips).tolist() == expected
+    assert compiled.measures.sum_over_nodes(population, table, *skips).tolist() == expected
 
 
 @given(data=st.data(), shape=st.tuples(st.integers(1, 8), st.integers(1, 8)), by_angle=st.booleans())
@@ -74,7 +74,7 @@ def test_energy_goes_by_the_quadrant_or_the_angle_of_each_new_direction(data, sh
     signs = data.draw(st.sampled_from([(1, 1), (1, -1), (-1, 1), (-1, -1)]))
     population = naive.packed(paths, shape[1], data.draw(st.integers(0, 9)))
     price = (1.0, 3.0, 10.0)
-    found = compiled.cells.quadrant_energy(
+    found = compiled.measures.quadrant_energy(
         population, shape[1], goal[0] * shape[1] + goal[1], *signs, np.array(price), by_angle
     )
     assert found.tolist() == [naive.quadrant_energy(path, goal, signs, price, by_angle) for path in paths]
@@ -89,21 +89,21 @@ def test_energy_goes_by_the_quadrant_or_the_angle_of_each_new_direction(data, sh
 def test_newcomers_were_not_there_before(data, shape, paddings) -> None:
     paths, before = (data.draw(st.lists(naive.paths_on(shape, 3), max_size=8)) for _ in range(2))
     now, then = (naive.packed(p, shape[1], k) for p, k in zip((paths, before), paddings, strict=True))
-    assert compiled.cells.newcomers(now, then).tolist() == naive.newcomers(paths, before)
+    assert compiled.identity.newcomers(now, then).tolist() == naive.newcomers(paths, before)
 
 
 @given(data=st.data(), shape=st.tuples(st.integers(1, 3), st.integers(1, 3)), padding=st.integers(0, 5))
 @examples(120)
 def test_paths_are_told_apart_and_each_knows_the_first_of_its_kind(data, shape, padding: int) -> None:
     paths = data.draw(st.lists(naive.paths_on(shape, 3), max_size=12))
-    first, which = compiled.cells.distinct(naive.packed(paths, shape[1], padding))
+    first, which = compiled.identity.distinct(naive.packed(paths, shape[1], padding))
     assert (first.tolist(), which.tolist()) == naive.distinct(paths)
 
 
 def test_many_paths_of_few_kinds_are_told_apart() -> None:
     rng = np.random.default_rng(0)
     paths = [tuple((0, int(c)) for c in np.flatnonzero(rng.random(5) < 0.5)) or ((0, 0),) for _ in range(3000)]
-    first, which = compiled.cells.distinct(naive.packed(paths, 5))
+    first, which = compiled.identity.distinct(naive.packed(paths, 5))
     assert len(first) == 31
     assert (first.tolist(), which.tolist()) == naive.distinct(paths)
 
@@ -113,7 +113,7 @@ def test_many_paths_of_few_kinds_are_told_apart() -> None:
 def test_loops_are_cut_out_and_the_marks_wiped(path: Cells) -> None:
     row = naive.packed([path], 3)[0]
     mark = np.zeros(9, np.int32)
-    count = compiled.cells.remove_loops(row, len(path), mark)
+    count = compiled.insertion.remove_loops(row, len(path), mark)
     assert tuple(divmod(cell, 3) for cell in row[:count].tolist()) == naive.without_loops(path)
     assert not mark.any()
 
@@ -121,7 +121,7 @@ def test_loops_are_cut_out_and_the_marks_wiped(path: Cells) -> None:
 def exchanged(paths: list[Cells], pairs: list, cols: int, cells: int, *, loops: bool, state: list[int]):
     population = naive.packed(paths, cols, padding=3)
     before = population.copy()
-    children, failed = compiled.cells.exchange_tails(
+    children, failed = compiled.exchange.exchange_tails(
         population, np.array(pairs, np.int64).reshape(-1, 2), cells, loops, np.array(state, np.uint64)
     )
     np.testing.assert_array_equal(population, before)
@@ -163,7 +163,7 @@ def test_no_pairs_give_the_population_back() -> None:
 
 def sampled(problem: PathProblem, n: int, state: list[int], *, tries=50, reach=8, cap=40, guarded=True, loops=False):
     it = problem.context
-    return compiled.cells.sample_by_insertion(
+    return compiled.insertion.sample_by_insertion(
         n, tries, it.start, it.goal, it.reachable_cells, it.blocked, it.moves, it.rows, it.cols, *it.signs,
         reach, cap, guarded, loops, np.array(state, np.uint64),
     )  # fmt: skip
@@ -219,7 +219,7 @@ def test_insertion_without_any_cell_between_start_and_goal_joins_them_directly()
 def test_insertion_gives_up_after_as_many_failures_in_a_row_as_tries() -> None:
     blocked = np.array([[0, 1, 0]], bool)
     it = Context(blocked, "strict", 0, 2)
-    found, failed, again = compiled.cells.sample_by_insertion(
+    found, failed, again = compiled.insertion.sample_by_insertion(
         4, 7, 0, 2, np.empty(0, np.int32), it.blocked, it.moves, 1, 3, 1, 1, 8, 16, True, False,
         np.array([1, 2, 3, 4], np.uint64),
     )  # fmt: skip
@@ -232,7 +232,7 @@ def mutated(
     it = problem.context
     population = naive.packed(paths, it.cols, padding=2)
     before = population.copy()
-    changed, failed = compiled.cells.mutate_neighbour(
+    changed, failed = compiled.insertion.mutate_neighbour(
         population, np.array(chosen, np.int64), it.blocked, it.moves, it.rows, it.cols, *it.signs,
         reach, cap, True, loops, np.array(state, np.uint64),
     )  # fmt: skip
@@ -288,9 +288,9 @@ def test_nobody_chosen_is_nobody_changed() -> None:
 
 def test_empty_populations_give_empty_answers() -> None:
     nobody = np.empty((0, 1), np.int32)
-    assert compiled.cells.lengths(nobody, 3).shape == (0,)
-    assert compiled.cells.turns(nobody, 3).shape == (0, 2)
-    assert compiled.cells.sum_over_nodes(nobody, np.zeros(9, np.uint8), 0, 1).shape == (0,)
-    assert compiled.cells.quadrant_energy(nobody, 3, 2, 1, 1, np.ones(3), False).shape == (0,)
-    assert compiled.cells.newcomers(nobody, nobody).shape == (0,)
-    assert [part.shape for part in compiled.cells.distinct(nobody)] == [(0,), (0,)]
+    assert compiled.measures.lengths(nobody, 3).shape == (0,)
+    assert compiled.measures.turns(nobody, 3).shape == (0, 2)
+    assert compiled.measures.sum_over_nodes(nobody, np.zeros(9, np.uint8), 0, 1).shape == (0,)
+    assert compiled.measures.quadrant_energy(nobody, 3, 2, 1, 1, np.ones(3), False).shape == (0,)
+    assert compiled.identity.newcomers(nobody, nobody).shape == (0,)
+    assert [part.shape for part in compiled.identity.distinct(nobody)] == [(0,), (0,)]

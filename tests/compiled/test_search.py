@@ -134,7 +134,7 @@ def test_seeds_from_trees_are_legal_and_free_of_loops(problem: PathProblem, stat
 def test_seeds_of_even_prices_and_no_detour_are_shortest(corners: str) -> None:
     problem = PathProblem(np.zeros((12, 9), bool), corners=corners)
     found = from_trees(problem, 20, [1, 2, 3, 4], spread=0.0, detour=1.0)
-    assert compiled.cells.lengths(found, 9) == pytest.approx([3 + 8 * math.sqrt(2)] * 20)
+    assert compiled.measures.lengths(found, 9) == pytest.approx([3 + 8 * math.sqrt(2)] * 20)
 
 
 def test_seeds_in_a_corridor_are_the_corridor() -> None:

@@ -25,13 +25,13 @@ def free(blocked: np.ndarray, pairs: list[tuple[Cell, Cell]], corners: str) -> l
 def clearances(blocked: np.ndarray, paths: list[Cells], padding: int = 0) -> np.ndarray:
     it = Context(blocked, "allow", 0, 0)
     population = naive.packed(paths, it.cols, padding)
-    return compiled.segments.clearances(population, it.blocked, it.distance, it.rows, it.cols)
+    return compiled.measures.clearances(population, it.blocked, it.distance, it.rows, it.cols)
 
 
 def flagged(flag: np.ndarray, paths: list[Cells], padding: int = 0) -> list[float]:
     cols = flag.shape[1]
     population = naive.packed(paths, cols, padding)
-    return compiled.segments.flagged_cells(population, np.ascontiguousarray(flag, np.uint8).ravel(), cols).tolist()
+    return compiled.measures.flagged_cells(population, np.ascontiguousarray(flag, np.uint8).ravel(), cols).tolist()
 
 
 def deleted(blocked: np.ndarray, paths: list[Cells], corners: str, passes: int, padding: int = 0) -> list[Cells]:
@@ -197,5 +197,5 @@ def test_empty_populations_give_empty_answers() -> None:
     nobody = np.empty((0, 1), np.int32)
     blocked = np.zeros(4, np.uint8)
     assert compiled.segments.delete_points(nobody, blocked, 2, 2, 1).shape == (0, 1)
-    assert compiled.segments.clearances(nobody, blocked, np.full(4, np.inf), 2, 2).shape == (0,)
-    assert compiled.segments.flagged_cells(nobody, blocked, 2).shape == (0,)
+    assert compiled.measures.clearances(nobody, blocked, np.full(4, np.inf), 2, 2).shape == (0,)
+    assert compiled.measures.flagged_cells(nobody, blocked, 2).shape == (0,)

@@ -38,7 +38,7 @@ class Distances:
         width = self.grid.width
         start, goal = (r * width + c for r, c in (case.start, case.goal))
         cells = compiled.search.octile_path(self.moves, width, start, goal)
-        return compiled.cells.lengths(cells[np.newaxis], width)[0] if len(cells) else math.inf
+        return compiled.measures.lengths(cells[np.newaxis], width)[0] if len(cells) else math.inf
 
 
 def differing(scenario: Scenario, cases: list[Case]) -> list[tuple[Case, float]]:

@@ -75,7 +75,7 @@ def test_way_points_that_may_cost_more_give_longer_paths() -> None:
     mean = {}
     for detour in (1.0, 1.3, 2.0):
         found = PerturbedTrees(detour=detour).sample(problem, 200, np.random.default_rng(0))
-        mean[detour] = float(pl.compiled.cells.lengths(found, 25).mean())
+        mean[detour] = float(pl.compiled.measures.lengths(found, 25).mean())
     assert mean[1.0] < mean[1.3] < mean[2.0]
 
 

@@ -156,7 +156,7 @@ def test_repair_keeps_ends_and_validity_and_never_lengthens(component):
         repaired = component.apply(population, problem, np.random.default_rng(0))
         assert len(repaired) == len(population)
         assert all(pl.validate(problem.representation.decode(row), problem) is None for row in repaired)
-        lengths = [pl.compiled.cells.lengths(p, problem.context.cols) for p in (population, repaired)]
+        lengths = [pl.compiled.measures.lengths(p, problem.context.cols) for p in (population, repaired)]
         assert (lengths[1] <= lengths[0] + 1e-12).all()
 
 

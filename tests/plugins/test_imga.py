@@ -239,7 +239,7 @@ def test_the_papers_result_is_no_optimum_of_its_own_fitness(data):
     cost, path = fittest(problem, planner)
     deleted = planner.refinement.apply(path, problem, np.random.default_rng(0))
     assert round(cost, 2) == 253.85
-    assert round(float(pl.compiled.cells.lengths(deleted, 20)[0]), 4) == 31.2625
+    assert round(float(pl.compiled.measures.lengths(deleted, 20)[0]), 4) == 31.2625
     literal = [pl.plan(problem, pl.compose("imga", archive="none"), seed=s).length for s in range(30)]
     assert round(min(literal), 1) == 35.2
     assert round(float(np.median(literal)), 1) == 37.0

@@ -113,7 +113,8 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
         console.print_json(result.to_dict())
     elif result.status != "unreachable":
         report.show(result, console.out())
-    unwritten = [f"{name}: not written, for there is no path" for name in report.write(result, options, frames)]
+    asked_for = [] if result.status == "unreachable" else report.write(result, options, frames)
+    unwritten = [f"{name}: not written, for there is no path" for name in asked_for]
     if not options["quiet"]:
         messages = console.err()
         for note in (*report.notes(result), *unwritten):

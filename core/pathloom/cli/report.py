@@ -110,14 +110,15 @@ def frame(state: Any) -> Any:
     return state.generation, paths, decode(best.row) if best else None, best.fitness if best else None
 
 
-def write(result: Result, options: dict[str, Any], frames: list[Any]) -> Iterator[str]:
-    """Write the files that were asked for, each under a temporary name first; yield those that need a path."""
+def write(result: Result, options: dict[str, Any], frames: list[Any]) -> list[str]:
+    """Write the files that were asked for, each under a temporary name first; return those that need a path."""
+    unwritten = []
     if options["out"]:
         write_file(options["out"], json_line(result.to_dict()).encode())
     if options["export"] and result.found:
         write_file(options["export"], export(result, Path(options["export"]).suffix.lower()).encode())
     elif options["export"]:
-        yield options["export"]
+        unwritten.append(options["export"])
     if options["plot"]:
         if Path(options["plot"]).suffix.lower() == ".gif":
             from pathloom.draw import animate
@@ -137,9 +138,10 @@ def write(result: Result, options: dict[str, Any], frames: list[Any]) -> Iterato
                     dark=options["dark"],
                 )
             else:
-                yield options["plot"]
+                unwritten.append(options["plot"])
         else:
             result.plot(options["plot"], dark=options["dark"])
+    return unwritten
 
 
 def export(result: Result, suffix: str) -> str:

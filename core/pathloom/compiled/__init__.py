@@ -1,9 +1,10 @@
 """Compiled kernels. They know arrays only: no problem, no grid, no population object.
 
-Families, each loaded when something first asks for it: ``segments`` (tests and distances),
-``cells`` (operators and objectives on populations of cell paths), ``search`` (trees, exact
-searches) and ``walks``. Loading compiles a family once for a machine; from then
-on it comes from numba's cache.
+Populations are int32 (n, width): flat cell ids, padded with −1. Each family is a
+module, loaded when something first asks for it: ``segments`` (collision tests,
+deletion of points), ``measures``, ``insertion``, ``exchange``, ``identity``,
+``search`` (trees, exact searches), ``walks``. Loading compiles a family once for a
+machine; from then on it comes from numba's cache.
 """
 
 import importlib
@@ -13,12 +14,15 @@ from typing import TYPE_CHECKING
 from pathloom.compiled.jit import loading
 
 if TYPE_CHECKING:
-    from pathloom.compiled import cells as cells
+    from pathloom.compiled import exchange as exchange
+    from pathloom.compiled import identity as identity
+    from pathloom.compiled import insertion as insertion
+    from pathloom.compiled import measures as measures
     from pathloom.compiled import search as search
     from pathloom.compiled import segments as segments
     from pathloom.compiled import walks as walks
 
-FAMILIES = ("segments", "cells", "search", "walks")
+FAMILIES = ("exchange", "identity", "insertion", "measures", "search", "segments", "walks")
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -21,8 +21,8 @@ Kernel = Callable[..., Any]
 
 njit: Any = _njit  # its annotations leave options out
 
-SHARED = ("random", "rows", "segments", "cells")
-"""Modules that families draw on; those that are not loaded yet are counted with the family."""
+USUAL = ("random", "rows", "segments", "measures", "insertion", "exchange", "identity")
+"""Modules that most runs load: their kernels make up the work that is announced, with the family asked for."""
 
 Listener = Callable[[int, int], None]
 """Called after a kernel was compiled (not: taken from the cache), with the number of kernels done and in all."""
@@ -44,13 +44,12 @@ def loading(family: str) -> Iterator[None]:
     global _seconds  # noqa: PLW0603 - one clock a process, under the lock
     with _lock:
         began = time.perf_counter()
-        before = dict(_progress)
-        names = [f"{__package__}.{name}" for name in dict.fromkeys((*SHARED, family))]
-        _progress.update(done=0, all=sum(_kernels_in(name) for name in names if name not in sys.modules))
+        names = [f"{__package__}.{name}" for name in dict.fromkeys((*USUAL, family))]
+        ahead = sum(_kernels_in(name) for name in names if name not in sys.modules)
+        _progress["all"] = _progress["done"] + ahead
         try:
             yield
         finally:
-            _progress.update(before)
             _seconds += time.perf_counter() - began
 
 

@@ -89,3 +89,26 @@ def hash_of(path, count):
     value = even ^ (odd << np.uint64(31) | odd >> np.uint64(33))
     value = (value ^ value >> np.uint64(32)) * np.uint64(0x9E3779B97F4A7C15)
     return value ^ value >> np.uint64(29)
+
+
+@part("i8(i4[::1], i8, i4[::1])")
+def remove_loops(path, count, mark):
+    """Cut out, in place, whatever lies between two visits of one cell; return the new count.
+
+    ``mark`` (one entry a cell) is all zero before and after.
+    """
+    kept = 0
+    for i in range(count):
+        cell = path[i]
+        if mark[cell] > 0:
+            back = mark[cell]
+            for j in range(back, kept):
+                mark[path[j]] = 0
+            kept = back
+        else:
+            path[kept] = cell
+            kept += 1
+            mark[cell] = kept
+    for j in range(kept):
+        mark[path[j]] = 0
+    return kept

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from pathloom.compiled.cells import DC, DR, remove_loops
+from pathloom.compiled.directions import DC, DR
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.random import below, uniform
-from pathloom.compiled.rows import copy, unpack, with_room
+from pathloom.compiled.rows import copy, remove_loops, unpack, with_room
 from pathloom.compiled.segments import segment_free
 
 SQRT2 = math.sqrt(2.0)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pathloom.compiled.cells import DC, DR
+from pathloom.compiled.directions import DC, DR
 from pathloom.compiled.jit import kernel
 from pathloom.compiled.random import below
 from pathloom.compiled.rows import copy, unpack, with_room

@@ -57,7 +57,7 @@ def any_angle_path(problem: PathProblem, *, work: int = WORK) -> tuple[float, Pa
     )
     if len(cells) == 0:
         return math.inf, None
-    length = float(compiled.cells.lengths(cells[np.newaxis], it.cols)[0])
+    length = float(compiled.measures.lengths(cells[np.newaxis], it.cols)[0])
     return length, problem.representation.decode(cells)
 
 
@@ -68,4 +68,4 @@ def _taut_length(problem: PathProblem, path: Path) -> float:
     shorter = compiled.segments.delete_points(row, it.blocked, it.cols, it.policy, 0)
     backwards = np.ascontiguousarray(row[:, ::-1])
     other = compiled.segments.delete_points(backwards, it.blocked, it.cols, it.policy, 0)
-    return float(min(compiled.cells.lengths(p, it.cols)[0] for p in (shorter, other)))
+    return float(min(compiled.measures.lengths(p, it.cols)[0] for p in (shorter, other)))

@@ -18,5 +18,5 @@ def octile_path(problem: PathProblem) -> tuple[float, Path | None]:
     cells = compiled.search.octile_path(it.moves, it.cols, it.start, it.goal)
     if len(cells) == 0:
         return float("inf"), None
-    length = float(compiled.cells.lengths(cells[np.newaxis], it.cols)[0])
+    length = float(compiled.measures.lengths(cells[np.newaxis], it.cols)[0])
     return length, problem.representation.decode(cells)

@@ -94,8 +94,12 @@ def run(
     searched = time.perf_counter() - began
     phases.setdefault("sampling", searched)
     phases["evolution"] = searched - phases["sampling"]
-    outcome = (
-        Outcome(None, reason="interrupted before the first individual") if state is None else planner.result(state)
-    )
+    outcome = Outcome(None, reason="interrupted before the first individual")
+    if state is not None:
+        try:
+            outcome = planner.result(state)
+        except KeyboardInterrupt:  # the answer as it was found is better than none
+            interrupted = True
+            outcome = Outcome(state.answer.row if state.answer else None, state.answer, "interrupted")
     phases["refinement"] = time.perf_counter() - began - searched
     return Run(state, outcome, phases, interrupted)

@@ -54,7 +54,7 @@ class CellPaths(Representation):
         return both
 
     def distinct(self, population: Population) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        return compiled.cells.distinct(population)  # type: ignore[no-any-return]
+        return compiled.identity.distinct(population)  # type: ignore[no-any-return]
 
     def newcomers(self, population: Population, before: Population) -> NDArray[np.intp]:
-        return np.asarray(compiled.cells.newcomers(population, before))
+        return np.asarray(compiled.identity.newcomers(population, before))

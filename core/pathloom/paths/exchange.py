@@ -23,7 +23,7 @@ def exchange_tails(
     Pairs without a common cell stay as they are, and are counted.
     """
     it = problem.context
-    children, failed = compiled.cells.exchange_tails(
+    children, failed = compiled.exchange.exchange_tails(
         population, np.ascontiguousarray(pairs), it.blocked.size, loops, rng.bit_generator.random_raw(4)
     )
     count("crossover without a common cell", failed)

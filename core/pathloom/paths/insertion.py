@@ -43,7 +43,7 @@ def sample_by_insertion(
     sign_r, sign_c = it.signs
     if it.start == it.goal:
         return np.full((n, 1), it.start, np.int32)
-    found, failed, again = compiled.cells.sample_by_insertion(
+    found, failed, again = compiled.insertion.sample_by_insertion(
         n, tries, it.start, it.goal, it.reachable_cells, it.blocked, it.moves, it.rows, it.cols, sign_r, sign_c,
         reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
     )  # fmt: skip
@@ -74,7 +74,7 @@ def mutate_neighbour(
     """
     it = problem.context
     sign_r, sign_c = it.signs
-    changed, failed = compiled.cells.mutate_neighbour(
+    changed, failed = compiled.insertion.mutate_neighbour(
         population, chosen, it.blocked, it.moves, it.rows, it.cols, sign_r, sign_c, reach,
         insertions if insertions >= 0 else 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
     )  # fmt: skip

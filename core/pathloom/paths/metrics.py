@@ -18,16 +18,16 @@ def metrics(path: Path, problem: PathProblem) -> dict[str, Any]:
     """
     it = problem.context
     row = problem.representation.encode([path])
-    length = float(compiled.cells.lengths(row, it.cols)[0])
-    turns, angle = compiled.cells.turns(row, it.cols)[0].tolist()
-    clearance = float(compiled.segments.clearances(row, it.blocked, it.distance, it.rows, it.cols)[0])
+    length = float(compiled.measures.lengths(row, it.cols)[0])
+    turns, angle = compiled.measures.turns(row, it.cols)[0].tolist()
+    clearance = float(compiled.measures.clearances(row, it.blocked, it.distance, it.rows, it.cols)[0])
     found: dict[str, Any] = {
         "length": length,
         "nodes": len(path),
         "turns": int(turns),
         "turn_angle": angle,
         "min_clearance": clearance if np.isfinite(clearance) else None,
-        "unsafe_nodes": int(compiled.cells.sum_over_nodes(row, it.unsafe, 0, 0)[0]),
+        "unsafe_nodes": int(compiled.measures.sum_over_nodes(row, it.unsafe, 0, 0)[0]),
     }
     if problem.grid.metric:
         found["length_m"] = length * problem.grid.resolution

@@ -19,7 +19,7 @@ class Length(Objective):
     works_on: ClassVar[str] = "cells"
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        return np.asarray(compiled.cells.lengths(population, path_problem(problem).context.cols))
+        return np.asarray(compiled.measures.lengths(population, path_problem(problem).context.cols))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +30,7 @@ class UnsafeCells(Objective):
 
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem).context
-        return np.asarray(compiled.segments.flagged_cells(population, it.unsafe, it.cols))
+        return np.asarray(compiled.measures.flagged_cells(population, it.unsafe, it.cols))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +40,7 @@ class Turns(Objective):
     works_on: ClassVar[str] = "cells"
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        return np.asarray(compiled.cells.turns(population, path_problem(problem).context.cols)[:, 0])
+        return np.asarray(compiled.measures.turns(population, path_problem(problem).context.cols)[:, 0])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +50,7 @@ class TurnAngle(Objective):
     works_on: ClassVar[str] = "cells"
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        return np.asarray(compiled.cells.turns(population, path_problem(problem).context.cols)[:, 1])
+        return np.asarray(compiled.measures.turns(population, path_problem(problem).context.cols)[:, 1])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,5 +64,5 @@ class Clearance(Objective):
 
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem).context
-        found = compiled.segments.clearances(population, it.blocked, it.distance, it.rows, it.cols)
+        found = compiled.measures.clearances(population, it.blocked, it.distance, it.rows, it.cols)
         return np.asarray(-np.minimum(found, np.hypot(it.rows, it.cols)))
