@@ -108,8 +108,8 @@ def test_start_and_goal_in_one_cell_export_one_pose(cli, folder: Path, hall) -> 
 
 
 @pytest.mark.parametrize("name", ["a.csv", "a.gif"])
-def test_a_file_that_needs_a_path_is_not_written_without_one_and_that_is_said(cli, folder: Path, wall, name) -> None:
-    done = cli("plan", "--map", wall, "--export" if name == "a.csv" else "--plot", name)
+def test_a_file_that_needs_a_path_is_not_written_without_one_and_that_is_said(cli, folder: Path, name) -> None:
+    done = cli("plan", "--map", "maze-21:1:s1", "--planner", "imga", "--export" if name == "a.csv" else "--plot", name)
     assert done.code == 3
     assert f"{name}: not written" in done.err
     assert not (folder / name).exists()
@@ -134,8 +134,8 @@ def test_the_animation_has_a_frame_for_each_generation_and_one_for_the_answer(cl
         assert 2 <= image.n_frames <= generations + 2
 
 
-def test_a_map_without_a_way_can_be_drawn(cli, folder: Path, wall) -> None:
-    assert cli("plan", "--map", wall, "--plot", "a.png").code == 3
+def test_a_search_without_result_can_be_drawn(cli, folder: Path) -> None:
+    assert cli("plan", "--map", "maze-21:1:s1", "--planner", "imga", "--plot", "a.png").code == 3
     assert (folder / "a.png").exists()
 
 
