@@ -4,6 +4,11 @@ import difflib
 from collections.abc import Iterable
 
 
+def a(word: str) -> str:
+    """Return a word with its indefinite article."""
+    return f"{'an' if word[:1] in 'aeiou' else 'a'} {word}"
+
+
 def meant(word: str, known: Iterable[str]) -> str:
     """Return a hint to the known name most like a misspelt one; empty when nothing is near."""
     names = sorted(set(known))

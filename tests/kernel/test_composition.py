@@ -83,7 +83,7 @@ def test_a_dotted_path_changes_one_thing(registry, path, value, found):
         ({"selektion": "roulette"}, "planner.selektion: 'imga/imga' has no such slot or parameter; did you mean 'selection'?"),
         ({"selection": "roulete"}, "planner.selection: no selection is called 'roulete'; did you mean 'roulette'?"),
         ({"selection": "imga/tree-layer"}, "planner.selection: no selection is called 'imga/tree-layer'; did you mean 'imga/three-layer'?"),
-        ({"selection": "length"}, "planner.selection: 'length' is a objective, not a selection"),
+        ({"selection": "length"}, "planner.selection: 'length' is an objective, not a selection"),
         ({"selection": "igma/three-layer"}, "planner.selection: no plugin is called 'igma'; did you mean 'imga'?"),
         ({"selection": {"use": "roulete", "a": 1}}, "planner.selection.use: no selection is called 'roulete'; did you mean 'roulette'?"),
         ({"selection": {"size": 3}}, "planner.selection.size: 'imga/three-layer' has no such parameter; known: none"),

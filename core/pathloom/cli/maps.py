@@ -28,7 +28,7 @@ def list_(as_json: bool) -> None:
         about = (entry.component.__doc__ or "").strip().partition("\n")[0]
         name = entry.component.name
         if issubclass(entry.component, MapFamily):
-            name = f"{name}-SIZE:{entry.component.usual or 'none'}"
+            name = f"{name}-SIZE" + (f":{entry.component.usual}" if entry.component.usual else "")
         rows.append({"name": name, "plugin": entry.source.namespace, "about": about, "source": entry.component.source})
     if as_json:
         console.print_json({"maps": rows})

@@ -18,6 +18,7 @@ import msgspec
 import numpy as np
 
 from pathloom.errors import ConfigError
+from pathloom.naming import a
 
 Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 """A probability or a fraction."""
@@ -209,9 +210,11 @@ def describe(hint: Any) -> str:
         return "one of " + ", ".join(repr(v) for v in inner)
     if origin is tuple:
         of = [i for i in inner if i is not Ellipsis]
-        return "a list of " + (describe(of[0]) if len(set(of)) == 1 else ", ".join(map(describe, of)))
+        if len(set(of)) > 1:
+            return "a list of " + ", ".join(map(describe, of))
+        return f"a list of {of[0].kind}s" if _is_kind(of[0]) else f"a list, each {describe(of[0])}"
     if _is_kind(hint):
-        return f"a {hint.kind}"
+        return a(hint.kind)
     if origin is not None and isinstance(origin, type) and issubclass(origin, Mapping):
         return "a table"
     return _WORDS.get(hint) or str(getattr(hint, "__words__", getattr(hint, "__name__", hint)))

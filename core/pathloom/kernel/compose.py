@@ -14,7 +14,7 @@ from pathloom.kernel.component import Component, Parameter, parameters
 from pathloom.kernel.evaluation import Objective, Term, Terms
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import Registry, default_registry
-from pathloom.naming import closest
+from pathloom.naming import a, closest
 
 NONE = "none"
 """What a config writes into a slot that is to be empty."""
@@ -50,11 +50,11 @@ def build(kind: type[C], value: Any, registry: Registry, where: str) -> C:
     if isinstance(value, str):
         value = {"use": value}
     if not isinstance(value, Mapping):
-        raise ConfigError(f"{where}: a {kind.kind} is a name or a table with 'use'; got {value!r}")
+        raise ConfigError(f"{where}: {a(kind.kind)} is a name or a table with 'use'; got {value!r}")
     name = value.get("use")
     if not isinstance(name, str):
         what = f"got use = {name!r}" if "use" in value else f"found {', '.join(map(repr, value)) or 'an empty table'}"
-        raise ConfigError(f"{where}: a {kind.kind} needs 'use', the name of one; {what}")
+        raise ConfigError(f"{where}: {a(kind.kind)} needs 'use', the name of one; {what}")
     component = registry.find(kind, name, f"{where}.use" if len(value) > 1 else where)
     return _assemble(component, value, None, registry, where)
 

@@ -14,7 +14,7 @@ from typing import TypeVar
 from pathloom.errors import ConfigError, PluginError
 from pathloom.kernel.component import Component
 from pathloom.kernel.plugins import Source, components_of, installed
-from pathloom.naming import closest
+from pathloom.naming import a, closest
 
 CORE = "core"
 """Namespace of the components that need no prefix."""
@@ -126,7 +126,7 @@ class Registry:
         if fitting:
             return fitting[0].component  # type: ignore[return-value]
         if found:
-            raise ConfigError(f"{at}{name!r} is a {found[0].component.kind}, not a {kind.kind}")
+            raise ConfigError(f"{at}{name!r} is {a(found[0].component.kind)}, not {a(kind.kind)}")
         hint = closest(name, (e.name for e in self.all_entries(kind)))
         raise ConfigError(f"{at}no {kind.kind} is called {name!r}; {hint}")
 

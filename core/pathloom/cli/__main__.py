@@ -1,5 +1,0 @@
-"""``python -m pathloom.cli``."""
-
-from pathloom.cli import main
-
-main()
