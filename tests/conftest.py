@@ -17,3 +17,12 @@ def data() -> Path:
     if not folder:
         pytest.skip("PATHLOOM_DATA is not set: the folder with Moving AI, ROS and GA maps")
     return Path(folder)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def kernels() -> None:
+    """Compile whatever is not in the cache yet, once for all tests, so that no command has to say that it does."""
+    from pathloom import compiled
+
+    for family in compiled.FAMILIES:
+        getattr(compiled, family)
