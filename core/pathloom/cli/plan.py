@@ -70,21 +70,21 @@ def command(ctx: click.Context, /, **options: Any) -> None:
         if facts is not None:
             facts["scenario"].check(facts["case"], problem.grid)
         name = config.problem.map
+        table = frozen(problem, name, planner, config.seed, config.time_limit)
+        table["problem"] |= {"unknown": config.problem.unknown}
+        if config.problem.threshold is not None:
+            table["problem"]["threshold"] = config.problem.threshold
         if options["freeze"]:
             import tomli_w
 
-            # The frozen config may be kept anywhere: name the map's file in full.
-            full = str(Path(name).resolve()) if Path(name).is_file() else name
-            table = frozen(problem, full, planner, config.seed, config.time_limit)
-            table["problem"].update(unknown=config.problem.unknown)
-            if config.problem.threshold is not None:
-                table["problem"]["threshold"] = config.problem.threshold
+            if Path(name).is_file():  # the frozen config may be kept anywhere: name the file in full
+                table["problem"]["map"] = str(Path(name).resolve())
             click.echo(tomli_w.dumps(table), nl=False)
             return
-        ctx.exit(_run(config, planner, problem, options, facts))
+        ctx.exit(_run(config, planner, problem, options, facts, table))
 
 
-def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], facts: Any) -> int:
+def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], facts: Any, table: Any) -> int:
     from pathloom.cli import console, report
     from pathloom.planning import plan
 
@@ -107,18 +107,16 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
             map_name=config.problem.map,
             watch=watch,
         )
-    if facts is not None:
-        result = replace(result, problem={**result.problem, **facts["said"]})
+    result = replace(result, config=table, problem={**result.problem, **(facts["said"] if facts else {})})
     if options["as_json"]:
         console.print_json(result.to_dict())
     elif result.status != "unreachable":
         report.show(result, console.out())
-    asked_for = [] if result.status == "unreachable" else report.write(result, options, frames)
-    unwritten = [f"{name}: not written, for there is no path" for name in asked_for]
+    unwritten = [] if result.status == "unreachable" else report.write(result, options, frames)
     if not options["quiet"]:
-        messages = console.err()
-        for note in (*report.notes(result), *unwritten):
-            messages.print(f"pathloom: {note}", soft_wrap=True)
+        missing = (f"{name}: not written, for there is no path" for name in unwritten)
+        for note in (*report.notes(result), *missing):
+            console.err().print(f"pathloom: {note}", soft_wrap=True)
     if result.interrupted:
         return INTERRUPTED
     return DONE if result.found else NO_PATH
