@@ -5,7 +5,7 @@ import math
 import platform
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -167,7 +167,8 @@ def describe_problem(problem: PathProblem, name: str) -> dict[str, Any]:
     }
 
 
-def versions() -> dict[str, str]:
+@cache
+def versions() -> Mapping[str, str]:
     """Return the versions on which a result may depend."""
     named = {name: version(name) for name in ("pathloom", "numpy", "numba")}
     return {"pathloom": named.pop("pathloom"), "python": platform.python_version(), **named}

@@ -19,6 +19,8 @@ class ThreeLayer(Selection):
     source: ClassVar[str] = "Li et al. 2021, section 4.3.1, fig. 4"
 
     def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
-        ranked = np.resize(np.argsort(-fitness, kind="stable"), n)
+        ranked = np.argsort(-fitness, kind="stable")
+        if len(ranked) < n:
+            ranked = np.resize(ranked, n)
         third = n // 3
         return np.concatenate((ranked[:third], ranked[: 2 * third + n % 3]))

@@ -73,10 +73,10 @@ def _meet(a: list[int], b: list[int], occupied: NDArray[np.bool_]) -> Contacts:
     """
     top, bottom = sorted((a[0], b[0]))
     left, right = sorted((a[1], b[1]))
-    obstacles: NDArray[Any] = np.argwhere(occupied[top : bottom + 1, left : right + 1]).astype(np.int64)
-    if len(obstacles) == 0:
+    box = occupied[top : bottom + 1, left : right + 1]
+    if not box.any():
         return Contacts()
-    obstacles += (top, left)
+    obstacles: NDArray[Any] = np.argwhere(box) + (top, left)
     dr, dc = b[0] - a[0], b[1] - a[1]
     twice = 2 * (dr * (obstacles[:, 1] - a[1]) - dc * (obstacles[:, 0] - a[0]))
     reach = abs(dr) + abs(dc)

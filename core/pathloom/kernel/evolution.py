@@ -122,7 +122,7 @@ class Evolution(Planner):
             for _ in range(self.migration.demes if self.migration else 1):
                 population = self.sampling.sample(problem, self.population, rng)
                 demes.append(self.evaluate(population, problem))
-        return self._reached(State(problem, rng.bit_generator.state), tuple(demes), 0, rng, counts, began)
+            return self._reached(State(problem, rng.bit_generator.state), tuple(demes), 0, rng, counts, began)
 
     def step(self, state: State) -> State:
         began = time.perf_counter()
@@ -133,7 +133,7 @@ class Evolution(Planner):
             demes = tuple(self.control.advance(self, d, state.problem, progress, rng) for d in state.demes)
             if self.migration is not None:
                 demes = self.migration.exchange(demes, generation, rng)
-        return self._reached(state, demes, generation, rng, counts, began)
+            return self._reached(state, demes, generation, rng, counts, began)
 
     def done(self, state: State) -> bool:
         return any(len(deme) == 0 for deme in state.demes) or super().done(state)
@@ -163,7 +163,9 @@ class Evolution(Planner):
             population = self.crossover.cross(population, pairs[crossed], problem, rng)
         if self.mutation is not None:
             # A child is mutated with the rate of the parent whose row it took: its own fitness is not known yet.
-            mutated = rng.random(len(population)) < self.mutation.rates(fitness, progress)
+            adaptive = self.mutation.probability is not None
+            rates = self.mutation.rates(fitness, progress) if adaptive else self.mutation.rate
+            mutated = rng.random(len(population)) < rates
             population = self.mutation.apply(population, np.flatnonzero(mutated), problem, rng)
         if self.repair is not None:
             population = self.repair.apply(population, problem, rng)
@@ -198,30 +200,27 @@ class Evolution(Planner):
         self, before: State, demes: tuple[Deme, ...], generation: int, rng: np.random.Generator,
         counts: dict[str, int], began: float,
     ) -> State:  # fmt: skip
-        problem, best, answer, main = before.problem, before.best, before.answer, demes[0]
-        history = before.history
-        diversity = 0.0
+        problem, best, answer, history = before.problem, before.best, before.answer, before.history
+        top = mean = diversity = 0.0
         for index, deme in enumerate(demes):
             if len(deme) == 0:
                 continue
             row = deme.best()
-            if best is None or deme.fitness[row] > best.fitness:
-                best = Individual(deme.population[row], deme.values[row], float(deme.fitness[row]), generation)
-            distinct = deme.distinct
-            if distinct is None:  # a migration has put it together
-                distinct, _ = problem.representation.distinct(deme.population)
+            fitness = float(deme.fitness[row])
+            if best is None or fitness > best.fitness:
+                best = Individual(deme.population[row], deme.values[row], fitness, generation)
+            distinct = self._distinct(deme, problem)
             if index == 0:
-                diversity = len(distinct) / len(deme)
+                top, mean, diversity = fitness, float(deme.fitness.sum()) / len(deme), len(distinct) / len(deme)
             if self.archive is not None:
-                was = before.demes[index].population if before.demes else deme.population[:0]
+                was = deme.population[:0]
+                if before.demes:
+                    was = before.demes[index].population[self._distinct(before.demes[index], problem)]
                 new = distinct[problem.representation.newcomers(deme.population[distinct], was)]
-                with counting() as kept:
-                    answer = self.archive.update(answer, deme, new, generation, problem, self.refinement, rng)
-                counts = total(counts, kept)
+                answer = self.archive.update(answer, deme, new, generation, problem, self.refinement, rng)
         evaluations = before.evaluations + counts.pop("evaluations", 0)
-        if best is not None and len(main):
-            mean = float(main.fitness.mean())
-            history = history.extended(evaluations, best.fitness, float(main.fitness.max()), mean, diversity)
+        if best is not None and len(demes[0]):
+            history = history.extended(evaluations, best.fitness, top, mean, diversity)
         return State(
             problem,
             rng.bit_generator.state,
@@ -234,6 +233,11 @@ class Evolution(Planner):
             total(before.counts, counts) if counts else before.counts,
             before.seconds + time.perf_counter() - began,
         )
+
+    @staticmethod
+    def _distinct(deme: Deme, problem: Problem) -> Indices:
+        """Return the indices of the distinct individuals, which a deme put together by a migration does not know."""
+        return problem.representation.distinct(deme.population)[0] if deme.distinct is None else deme.distinct
 
     def _check_requirements(self) -> None:
         """Refuse operators that need what those before them in the loop do not keep."""
