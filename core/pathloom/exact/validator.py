@@ -76,7 +76,7 @@ def _meet(a: list[int], b: list[int], occupied: NDArray[np.bool_]) -> Contacts:
     box = occupied[top : bottom + 1, left : right + 1]
     if not box.any():
         return Contacts()
-    obstacles: NDArray[Any] = np.argwhere(box) + (top, left)
+    obstacles: NDArray[Any] = np.argwhere(box) + np.array([top, left])
     dr, dc = b[0] - a[0], b[1] - a[1]
     twice = 2 * (dr * (obstacles[:, 1] - a[1]) - dc * (obstacles[:, 0] - a[0]))
     reach = abs(dr) + abs(dc)
