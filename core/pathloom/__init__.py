@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from pathloom import compiled as compiled
     from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
     from pathloom.exact import any_angle_path, octile_path, validate
-    from pathloom.grid import OccupancyGrid, write_map
+    from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
     from pathloom.kernel.archive import Archive
     from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
     from pathloom.kernel.counting import count
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from pathloom.paths.cell_paths import CellPaths, Path
     from pathloom.paths.collision import Collision
     from pathloom.paths.maps import Map, load_map
+    from pathloom.paths.numbering import Numbering
     from pathloom.paths.pathwise import PathCrossover, PathMutation, PathObjective, PathRepair, PathSampling
     from pathloom.paths.problem import PathProblem
     from pathloom.planning import compose, freeze, iterate, plan
@@ -46,7 +47,7 @@ if TYPE_CHECKING:
 _HOME = {
     "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
     "exact": ("any_angle_path", "octile_path", "validate"),
-    "grid": ("OccupancyGrid", "write_map"),
+    "grid": ("OccupancyGrid", "full_cell_cover", "write_map"),
     "kernel.archive": ("Archive",),
     "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
     "kernel.counting": ("count",),
@@ -66,6 +67,7 @@ _HOME = {
     "paths.cell_paths": ("CellPaths", "Path"),
     "paths.collision": ("Collision",),
     "paths.maps": ("Map", "load_map"),
+    "paths.numbering": ("Numbering",),
     "paths.pathwise": ("PathCrossover", "PathMutation", "PathObjective", "PathRepair", "PathSampling"),
     "paths.problem": ("PathProblem",),
     "planning": ("compose", "freeze", "iterate", "plan"),
@@ -94,6 +96,7 @@ __all__ = [
     "Migration",
     "Mutation",
     "NonNegative",
+    "Numbering",
     "Objective",
     "Observer",
     "OccupancyGrid",
@@ -133,6 +136,7 @@ __all__ = [
     "compose",
     "count",
     "freeze",
+    "full_cell_cover",
     "hookimpl",
     "iterate",
     "load_map",

@@ -1,6 +1,7 @@
 """Occupancy grids: the map itself, what its obstacles block, and the files that hold maps."""
 
 from pathloom.grid.connectivity import labels
+from pathloom.grid.covering import full_cell_cover
 from pathloom.grid.inflation import inflate
 from pathloom.grid.occupancy import OccupancyGrid
 from pathloom.grid.reading import read_map
@@ -11,6 +12,7 @@ __all__ = [
     "Case",
     "OccupancyGrid",
     "Scenario",
+    "full_cell_cover",
     "inflate",
     "labels",
     "read_map",
