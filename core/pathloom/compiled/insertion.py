@@ -94,22 +94,7 @@ def connect(a, b, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarde
     "Tuple((i4[:, ::1], i8, i8))(i8, i8, i8, i8, i4[::1], u1[::1], u1[::1], i8, i8, i8, i8, i8, i8, b1, b1, u8[::1])"
 )
 def sample_by_insertion(
-    n,
-    tries,
-    start,
-    goal,
-    middle,
-    blocked,
-    moves,
-    rows,
-    cols,
-    sign_r,
-    sign_c,
-    reach,
-    cap,
-    guarded,
-    loops,
-    state,
+    n, tries, start, goal, middle, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, loops, state
 ):
     """Draw n distinct paths start – random cell of ``middle`` – goal, joined by median insertion.
 
@@ -128,63 +113,17 @@ def sample_by_insertion(
         in_a_row += 1
         path[0] = start
         count = 1
+        through = goal
         if middle.shape[0] > 0:
             through = middle[below(state, middle.shape[0])]
+        count = connect(
+            start, through, blocked, moves, rows, cols, sign_r, sign_c, reach, cap, guarded, path, count, stack, state
+        )
+        if count >= 0 and through != goal:
             count = connect(
-                start,
-                through,
-                blocked,
-                moves,
-                rows,
-                cols,
-                sign_r,
-                sign_c,
-                reach,
-                cap,
-                guarded,
-                path,
-                count,
-                stack,
-                state,
-            )
-            if count < 0:
-                failed += 1
-                continue
-            count = connect(
-                through,
-                goal,
-                blocked,
-                moves,
-                rows,
-                cols,
-                sign_r,
-                sign_c,
-                reach,
-                cap,
-                guarded,
-                path,
-                count,
-                stack,
-                state,
-            )
-        else:
-            count = connect(
-                start,
-                goal,
-                blocked,
-                moves,
-                rows,
-                cols,
-                sign_r,
-                sign_c,
-                reach,
-                cap,
-                guarded,
-                path,
-                count,
-                stack,
-                state,
-            )
+                through, goal, blocked, moves, rows, cols, sign_r, sign_c, reach,
+                cap, guarded, path, count, stack, state,
+            )  # fmt: skip
         if count < 0:
             failed += 1
             continue
@@ -249,40 +188,14 @@ def mutate_neighbour(population, chosen, blocked, moves, rows, cols, sign_r, sig
             if moved >= 0:
                 copy(path, 0, row, 0, i)
                 made = connect(
-                    before,
-                    moved,
-                    blocked,
-                    moves,
-                    rows,
-                    cols,
-                    sign_r,
-                    sign_c,
-                    reach,
-                    cap,
-                    guarded,
-                    path,
-                    i,
-                    stack,
-                    state,
-                )
+                    before, moved, blocked, moves, rows, cols, sign_r, sign_c, reach,
+                    cap, guarded, path, i, stack, state,
+                )  # fmt: skip
                 if made >= 0:
                     made = connect(
-                        moved,
-                        after,
-                        blocked,
-                        moves,
-                        rows,
-                        cols,
-                        sign_r,
-                        sign_c,
-                        reach,
-                        cap,
-                        guarded,
-                        path,
-                        made,
-                        stack,
-                        state,
-                    )
+                        moved, after, blocked, moves, rows, cols, sign_r, sign_c, reach,
+                        cap, guarded, path, made, stack, state,
+                    )  # fmt: skip
                 if made >= 0:
                     copy(path, made, row, i + 2, count - i - 2)
                     made += count - i - 2
