@@ -213,10 +213,7 @@ class Evolution(Planner):
             if index == 0:
                 top, mean, diversity = fitness, float(deme.fitness.sum()) / len(deme), len(distinct) / len(deme)
             if self.archive is not None:
-                was = deme.population[:0]
-                if before.demes:
-                    was = before.demes[index].population[self._distinct(before.demes[index], problem)]
-                new = distinct[problem.representation.newcomers(deme.population[distinct], was)]
+                new = self._newcomers(deme, before.demes[index] if before.demes else None, problem)
                 answer = self.archive.update(answer, deme, new, generation, problem, self.refinement, rng)
         evaluations = before.evaluations + counts.pop("evaluations", 0)
         if best is not None and len(demes[0]):
@@ -238,6 +235,14 @@ class Evolution(Planner):
     def _distinct(deme: Deme, problem: Problem) -> Indices:
         """Return the indices of the distinct individuals, which a deme put together by a migration does not know."""
         return problem.representation.distinct(deme.population)[0] if deme.distinct is None else deme.distinct
+
+    def _newcomers(self, deme: Deme, before: Deme | None, problem: Problem) -> Indices:
+        """Return the indices of the distinct individuals that the generation before did not have."""
+        distinct = self._distinct(deme, problem)
+        if before is None:
+            return distinct
+        was = before.population[self._distinct(before, problem)]
+        return distinct[problem.representation.newcomers(deme.population[distinct], was)]
 
     def _check_requirements(self) -> None:
         """Refuse operators that need what those before them in the loop do not keep."""
