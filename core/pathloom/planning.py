@@ -15,7 +15,7 @@ from pathloom.kernel.compose import compose, freeze
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.registry import default_registry
-from pathloom.kernel.run import check_seed, run
+from pathloom.kernel.run import check_interrupt, check_seed, run
 from pathloom.kernel.run import iterate as iterate_planner
 from pathloom.kernel.state import State
 from pathloom.paths.cell_paths import Path
@@ -118,7 +118,8 @@ def plan(
         length = facts["metrics"]["length"] if path is not None else None
         try:
             facts["optimum"], facts["gap"] = _references(problem, length)
-        except KeyboardInterrupt:  # the path is there already
+        except (KeyboardInterrupt, SystemError) as error:  # the path is there already
+            check_interrupt(error)
             facts["interrupted"] = True
     return Result(status=status, path=path, unrefined=unrefined, reason=reason, **facts)
 

@@ -106,15 +106,15 @@ def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], Non
 
 
 @contextmanager
-def between_generations() -> Iterator[Callable[[], None]]:
-    """Give a function that raises KeyboardInterrupt once Ctrl-C was pressed.
+def between_generations() -> Iterator[Callable[[bool], None]]:
+    """Give a function that raises KeyboardInterrupt once Ctrl-C was pressed; told of the last one, it stops listening.
 
     Within a compiled kernel an interrupt would end in a SystemError, and the
     best path so far be lost. So the first Ctrl-C waits until the function is
     called; a second one does not wait.
     """
     if threading.current_thread() is not threading.main_thread():  # no other thread may listen to signals
-        yield lambda: None
+        yield lambda _: None
         return
     before = signal.getsignal(signal.SIGINT)
     pressed = False
@@ -124,9 +124,11 @@ def between_generations() -> Iterator[Callable[[], None]]:
         pressed = True
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
-    def check() -> None:
+    def check(last: bool) -> None:
         if pressed:
             raise KeyboardInterrupt
+        if last:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
 
     signal.signal(signal.SIGINT, press)
     try:

@@ -96,7 +96,7 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
             tell(state)
             if animated:
                 frames.append(report.frame(state))
-            check()
+            check(planner.done(state))
 
         result = plan(
             problem,

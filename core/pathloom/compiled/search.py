@@ -257,7 +257,7 @@ def any_angle_path(blocked, cols, start, goal, policy, before, after, upper, wor
             dr, dc = row[there] - r, col[there] - c
             far = g + math.sqrt(dr * dr + dc * dc)
             if far < distance[there] - slack and far + bound[there] <= upper + slack:
-                done += np.int64(max(abs(dr), abs(dc)))
+                done += 10
                 if segment_free(blocked, cols, ids[here], np.int64(dr), np.int64(dc), policy):
                     distance[there] = far
                     parent[there] = here

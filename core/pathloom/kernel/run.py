@@ -36,6 +36,12 @@ def check_seed(seed: object) -> int:
     return int(seed)
 
 
+def check_interrupt(error: BaseException) -> None:
+    """Raise the error again unless somebody pressed Ctrl-C: within a compiled kernel that surfaces as a SystemError."""
+    if not isinstance(error, KeyboardInterrupt) and not isinstance(error.__cause__, KeyboardInterrupt):
+        raise error
+
+
 def first_generator(seed: int) -> np.random.Generator:
     """Return the generator with which a run of this seed begins."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(check_seed(seed))))
@@ -87,9 +93,7 @@ def run(
             if time_limit is not None and now >= time_limit:
                 break
     except (KeyboardInterrupt, SystemError) as error:
-        # An interrupt that arrives while a kernel runs surfaces as the cause of a SystemError.
-        if isinstance(error, SystemError) and not isinstance(error.__cause__, KeyboardInterrupt):
-            raise
+        check_interrupt(error)
         interrupted = True
     searched = time.perf_counter() - began
     phases.setdefault("sampling", searched)
@@ -98,7 +102,8 @@ def run(
     if state is not None:
         try:
             outcome = planner.result(state)
-        except KeyboardInterrupt:  # the answer as it was found is better than none
+        except (KeyboardInterrupt, SystemError) as error:  # the answer as it was found is better than none
+            check_interrupt(error)
             interrupted = True
             outcome = Outcome(state.answer.row if state.answer else None, state.answer, "interrupted")
     phases["refinement"] = time.perf_counter() - began - searched
