@@ -84,9 +84,11 @@ def main() -> None:
             raise
         code = DONE  # a pipe was closed: click has put a silent stream in the place of our output
     except BrokenPipeError:  # whoever read our output has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _abandon_output()
         code = DONE
     except OSError as error:
+        if error.filename is None:
+            _abandon_output()
         code = _say(f"{error.filename or 'output'}: {error.strerror or error}", BAD_INPUT)
     except MemoryError as error:
         code = _say(f"found too little memory: {error or 'none is left'}; take a smaller map or population", BAD_INPUT)
@@ -108,6 +110,11 @@ def _make_output_safe() -> None:
             setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 - until the process ends
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
+
+
+def _abandon_output() -> None:
+    """Let what is still to be printed go nowhere, so that the interpreter does not fail on it when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _say(message: str, code: int) -> int:
