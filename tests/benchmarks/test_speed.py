@@ -34,6 +34,25 @@ def test_any_angle_optimum(benchmark, problem):
     benchmark(lambda: pl.any_angle_path(problem))
 
 
+@pytest.mark.data
+def test_imga_on_the_papers_environment_4(benchmark, data):
+    grid = pl.load_map(data / "ga_grids" / "ga_smooth_20x20.csv")
+    problem = pl.PathProblem(grid, start="top-left", goal="bottom-right", corners="allow")
+    planner = compose("imga")
+    benchmark(lambda: run(problem, planner, 1))
+
+
+def test_plan_with_validation_and_report(benchmark, problem):
+    planner = literal(50)
+    benchmark(lambda: pl.plan(problem, planner, seed=1))
+
+
+@pytest.mark.parametrize("name", ["blocks-200:20%", "rooms-200:8", "random-200:30%"])
+def test_any_angle_optimum_of_a_large_map(benchmark, name):
+    large = pl.PathProblem(pl.load_map(name))
+    benchmark.pedantic(lambda: pl.any_angle_path(large), rounds=1)
+
+
 def test_octile_optimum(benchmark, problem):
     benchmark(lambda: pl.octile_path(problem))
 

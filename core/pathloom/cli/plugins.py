@@ -1,12 +1,17 @@
 """``pathloom plugins``: list and show what is installed."""
 
 import inspect
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from pathloom.cli import Group
 from pathloom.errors import ConfigError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from pathloom.kernel.registry import Entry, Registry
 
 
 @click.group("plugins", cls=Group)
@@ -68,76 +73,89 @@ def list_(kind: str | None, as_json: bool) -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
 def show(name: str, as_json: bool) -> None:
     """Show a component: what it is, its source, and its parameters with defaults and ranges."""
-    from rich.table import Table
-    from rich.text import Text
-
     from pathloom.cli import console
-    from pathloom.kernel.component import parameters
-    from pathloom.kernel.compose import freeze
-    from pathloom.kernel.planner import Planner
     from pathloom.kernel.registry import default_registry
-    from pathloom.naming import closest
 
     registry = default_registry()
-    entries = list(registry.all_entries())
-    found = [e for e in entries if name in (e.name, e.component.name)]
-    exact = [e for e in found if e.name == name]
-    found = exact or found
-    if not found:
-        broken = registry.broken()
-        if name in broken:
-            raise broken[name]
-        if name in registry.namespaces:
-            found = registry.entries(name)
-        else:
-            raise ConfigError(f"no component is called {name!r}; {closest(name, (e.name for e in entries))}")
-    documents = []
-    for entry in found:
-        component = entry.component
-        rows = []
-        for parameter in parameters(component):
-            default = "needed" if parameter.required else _default(parameter.default, registry)
-            about = _field_docs(component).get(parameter.name, "")
-            rows.append({"name": parameter.name, "allowed": parameter.allowed, "default": default, "about": about})
-        document: dict[str, Any] = {
-            "name": entry.name,
-            "kind": component.kind,
-            "about": inspect.getdoc(component) or "",
-            "source": component.source,
-            "plugin": str(entry.source),
-            "needs": sorted(component.needs),
-            "parameters": rows,
-        }
-        if issubclass(component, Planner):
-            document |= {
-                "reference": component.reference,
-                "fidelity": component.fidelity,
-                "assumptions": list(component.assumptions),
-            }
-            if not any(p.required for p in parameters(component)):
-                document["config"] = freeze(component(), registry)
-        documents.append(document)
+    documents = [_document(entry, registry) for entry in _called(name, registry)]
     if as_json:
         console.print_json(documents[0] if len(documents) == 1 else documents)
         return
-    out = console.out()
     for document in documents:
-        out.print(Text.assemble((document["name"], "bold"), f", {document['kind']}, {document['plugin']}"))
-        out.print(document["about"])
-        if document["source"]:
-            out.print(f"Source: {document['source']}")
-        if document.get("reference"):
-            out.print(f"Reference: {document['reference']}")
-            out.print(f"Fidelity: {document['fidelity']}")
-            for assumption in document["assumptions"]:
-                out.print(f"  - {assumption}")
-        if document["parameters"]:
-            table = Table(box=None, pad_edge=False)
-            for head in ("parameter", "allowed", "default", "meaning"):
-                table.add_column(head)
-            for row in document["parameters"]:
-                table.add_row(row["name"], row["allowed"], row["default"], row["about"])
-            out.print(table)
+        _print(document, console.out())
+
+
+def _called(name: str, registry: "Registry") -> list["Entry"]:
+    """Return the components of a full or a bare name, or all of the plugin of that name."""
+    from pathloom.naming import closest
+
+    entries = list(registry.all_entries())
+    found = [e for e in entries if e.name == name] or [e for e in entries if e.component.name == name]
+    if found:
+        return found
+    if name in (broken := registry.broken()):
+        raise broken[name]
+    if name in registry.namespaces:
+        return registry.entries(name)
+    raise ConfigError(f"no component is called {name!r}; {closest(name, (e.name for e in entries))}")
+
+
+def _document(entry: "Entry", registry: "Registry") -> dict[str, Any]:
+    """Return all that a component declares of itself."""
+    from pathloom.kernel.component import parameters
+    from pathloom.kernel.compose import freeze
+    from pathloom.kernel.planner import Planner
+
+    component = entry.component
+    meanings = _field_docs(component)
+    document: dict[str, Any] = {
+        "name": entry.name,
+        "kind": component.kind,
+        "about": inspect.getdoc(component) or "",
+        "source": component.source,
+        "plugin": str(entry.source),
+        "needs": sorted(component.needs),
+        "parameters": [
+            {
+                "name": parameter.name,
+                "allowed": parameter.allowed,
+                "default": "needed" if parameter.required else _default(parameter.default, registry),
+                "about": meanings.get(parameter.name, ""),
+            }
+            for parameter in parameters(component)
+        ],
+    }
+    if issubclass(component, Planner):
+        document |= {
+            "reference": component.reference,
+            "fidelity": component.fidelity,
+            "assumptions": list(component.assumptions),
+        }
+        if not any(p.required for p in parameters(component)):
+            document["config"] = freeze(component(), registry)
+    return document
+
+
+def _print(document: dict[str, Any], out: "Console") -> None:
+    from rich.table import Table
+    from rich.text import Text
+
+    out.print(Text.assemble((document["name"], "bold"), f", {document['kind']}, {document['plugin']}"))
+    out.print(document["about"])
+    if document["source"]:
+        out.print(f"Source: {document['source']}")
+    if document.get("reference"):
+        out.print(f"Reference: {document['reference']}")
+        out.print(f"Fidelity: {document['fidelity']}")
+        for assumption in document["assumptions"]:
+            out.print(f"  - {assumption}")
+    if document["parameters"]:
+        table = Table(box=None, pad_edge=False)
+        for head in ("parameter", "allowed", "default", "meaning"):
+            table.add_column(head)
+        for row in document["parameters"]:
+            table.add_row(row["name"], row["allowed"], row["default"], row["about"])
+        out.print(table)
 
 
 @command.command("schema")

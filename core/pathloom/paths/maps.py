@@ -142,14 +142,6 @@ def _family(name: str, registry: Registry) -> type[MapFamily] | None:
     return component if issubclass(component, MapFamily) else None
 
 
-def expand(name: str) -> list[str]:
-    """Return the maps that a name stands for: ``random-20:75:x3`` is seeds 0 to 2, any other name itself."""
-    head, times, count = name.rpartition(":x")
-    if times and count.isdecimal():
-        return [f"{head}:s{seed}" if seed else head for seed in range(int(count))]
-    return [name]
-
-
 def load_map(
     source: str | Path,
     *,
