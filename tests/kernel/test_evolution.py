@@ -11,7 +11,9 @@ from pathloom.kernel.compose import build, compose, freeze
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.run import iterate, run
 from pathloom.kernel.selection import Roulette
-from pathloom.kernel.termination import Stagnation, WallTime
+from pathloom.kernel.state import Deme
+from pathloom.kernel.survival import BestOfBoth, KeepBest
+from pathloom.kernel.termination import MaxGenerations, Stagnation, WallTime
 
 ONE_MAX = """
 [problem]
@@ -150,7 +152,13 @@ def _objective(function):
 
 def test_stagnation_stops_when_the_best_has_not_changed(registry):
     problem, planner = load(ONE_MAX, registry)
-    lazy = compose(planner, registry=registry, termination=[Stagnation(patience=5)], mutation=None, crossover=None)
+    lazy = compose(
+        planner,
+        registry=registry,
+        termination=[Stagnation(patience=5), MaxGenerations(limit=99)],
+        mutation=None,
+        crossover=None,
+    )
     assert list(iterate(problem, lazy, seed=0))[-1].generation == 5
 
 
@@ -224,3 +232,28 @@ def test_roulette_prefers_the_fit_in_proportion():
 )
 def test_roulette_bears_zero_infinite_and_negative_fitness(fitness, allowed):
     assert set(Roulette().select(np.array(fitness), 200, np.random.default_rng(0)).tolist()) == allowed
+
+
+def ranked(*fitness):
+    fitness = np.array(fitness, float)
+    return Deme(np.arange(len(fitness))[:, None] + fitness[:, None], fitness[:, None], fitness)
+
+
+def test_the_best_parents_take_the_places_of_the_worst_children(registry):
+    problem, _ = load(SPHERE, registry)
+    after = KeepBest(elites=2).survive(ranked(9, 1, 8, 2), ranked(3, 4, 5, 6), problem, np.random.default_rng(0))
+    assert after.fitness.tolist() == [9, 8, 6, 5]
+    assert after.values[:, 0].tolist() == [9, 8, 6, 5]
+    assert after.population[:, 0].tolist() == [9, 10, 9, 7]
+
+
+def test_of_parents_and_children_the_fittest_are_left(registry):
+    problem, _ = load(SPHERE, registry)
+    after = BestOfBoth().survive(ranked(9, 1, 8, 2), ranked(3, 4, 5, 6), problem, np.random.default_rng(0))
+    assert after.fitness.tolist() == [9, 8, 6, 5]
+
+
+def test_the_best_is_the_first_of_equals(registry):
+    problem, planner = load(ONE_MAX, registry)
+    still = compose(planner, registry=registry, mutation=None, crossover=None)
+    assert [state.best.generation for state in iterate(problem, still, seed=0)] == [0] * 81
