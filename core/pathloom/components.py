@@ -1,14 +1,16 @@
 """The components that belong to no paper, registered through the same hook as everybody's."""
 
 from pathloom.kernel.archive import BestRefined
-from pathloom.kernel.evaluation import ReciprocalOfSum
+from pathloom.kernel.evaluation import ReciprocalOfSum, WeightedReciprocals
 from pathloom.kernel.evolution import Evolution, Generational
 from pathloom.kernel.plugins import Add, hookimpl
+from pathloom.kernel.repair import InTurn
 from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, Tournament
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnation, TargetFitness, WallTime
 from pathloom.paths.collision import Exact
 from pathloom.paths.deletion import PointDeletion
+from pathloom.paths.loops import LoopRemoval
 from pathloom.paths.objectives import Clearance, Length, TurnAngle, Turns, UnsafeCells
 from pathloom.paths.tree_seeding import PerturbedTrees
 
@@ -20,10 +22,10 @@ def register(add: Add) -> None:
         Evolution, Generational, BestRefined,
         PerturbedTrees,
         Length, UnsafeCells, Turns, TurnAngle, Clearance,
-        ReciprocalOfSum,
+        ReciprocalOfSum, WeightedReciprocals,
         Roulette, Tournament, RandomPairs, ConsecutivePairs,
         Replacement, KeepBest, BestOfBoth,
-        PointDeletion, Exact,
+        PointDeletion, LoopRemoval, InTurn, Exact,
         MaxGenerations, MaxEvaluations, Stagnation, TargetFitness, WallTime,
     ):  # fmt: skip
         add(component)

@@ -209,7 +209,7 @@ def test_several_populations_exchange_through_migration(registry):
     class Swap(pl.Migration):
         demes = 2
 
-        def exchange(self, demes, generation, rng):
+        def exchange(self, demes, state, rng):
             return demes[::-1]
 
     both = compose(planner, registry=registry, migration=Swap(), crossover=None, mutation=None, survival="replacement")

@@ -17,12 +17,26 @@ if TYPE_CHECKING:
     from pathloom.compiled import exchange as exchange
     from pathloom.compiled import identity as identity
     from pathloom.compiled import insertion as insertion
+    from pathloom.compiled import libraries as libraries
     from pathloom.compiled import measures as measures
+    from pathloom.compiled import probabilities as probabilities
+    from pathloom.compiled import reshaping as reshaping
     from pathloom.compiled import search as search
     from pathloom.compiled import segments as segments
     from pathloom.compiled import walks as walks
 
-FAMILIES = ("exchange", "identity", "insertion", "measures", "search", "segments", "walks")
+FAMILIES = (
+    "exchange",
+    "identity",
+    "insertion",
+    "libraries",
+    "measures",
+    "probabilities",
+    "reshaping",
+    "search",
+    "segments",
+    "walks",
+)
 
 
 def __getattr__(name: str) -> ModuleType:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.errors import ConfigError, PluginError
-from pathloom.kernel.component import Component
+from pathloom.kernel.component import Component, NonNegative
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
 
@@ -36,26 +36,6 @@ class Fitness(Component, ABC):
     @abstractmethod
     def combine(self, values: Floats, weights: Floats) -> Floats:
         """Return the fitness (n,) of values (n, m) under weights (m,)."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Weighting(Component, ABC):
-    """A rule that gives the weights of the objectives, in place of plain numbers."""
-
-    kind: ClassVar[str] = "weighting"
-
-    @abstractmethod
-    def weights(self, count: int) -> Floats:
-        """Return the weights (count,) of the objectives in their order."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReciprocalOfSum(Fitness):
-    """F = 1 / sum of w_k t_k; ``inf`` where the sum is zero."""
-
-    def combine(self, values: Floats, weights: Floats) -> Floats:
-        with np.errstate(divide="ignore"):
-            return np.asarray(1.0 / (values @ weights))
 
 
 @dataclass(frozen=True)
@@ -103,6 +83,49 @@ class Terms(tuple[Term, ...]):
     def objectives(self) -> Iterator[Objective]:
         """Yield the objectives in order."""
         return (term.objective for term in self)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Weighting(Component, ABC):
+    """A rule that gives the weights of the objectives, in place of plain numbers."""
+
+    kind: ClassVar[str] = "weighting"
+
+    def check(self, terms: Terms) -> None:
+        """Raise a ``ConfigError`` where the rule cannot give weights to these objectives."""
+
+    @abstractmethod
+    def weights(self, terms: Terms, problem: Problem) -> Floats:
+        """Return the weights (m,) of the objectives, in their order."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReciprocalOfSum(Fitness):
+    """F = 1 / sum of w_k t_k; ``inf`` where the sum is zero."""
+
+    def combine(self, values: Floats, weights: Floats) -> Floats:
+        with np.errstate(divide="ignore"):
+            return np.asarray(1.0 / (values @ weights))
+
+
+@dataclass(frozen=True, kw_only=True)
+class WeightedReciprocals(Fitness):
+    """F = sum of w_k / max(t_k, floor_k): each objective counts by its own reciprocal.
+
+    A floor says below which value an objective no longer counts; without one a
+    zero would outweigh everything else.
+    """
+
+    floors: tuple[NonNegative, ...] = (1.0,)
+    """One for each objective, in order; the last one stands for all that follow."""
+
+    def combine(self, values: Floats, weights: Floats) -> Floats:
+        given = len(self.floors)
+        if given == 0:
+            raise ConfigError("weighted-reciprocals: floors is a list of at least one number; got none")
+        floors = [self.floors[min(k, given - 1)] for k in range(values.shape[1])]
+        with np.errstate(divide="ignore"):
+            return np.asarray((weights / np.maximum(values, floors)).sum(axis=1))
 
 
 def measure(objectives: Sequence[Objective], population: Population, problem: Problem) -> Floats:

@@ -46,20 +46,22 @@ class Control(Component, ABC):
     kind: ClassVar[str] = "control"
 
     @abstractmethod
-    def advance(
-        self, planner: "Evolution", deme: Deme, problem: Problem, progress: float, rng: np.random.Generator
-    ) -> Deme:
-        """Return the next generation of a population."""
+    def advance(self, planner: "Evolution", state: State, which: int, rng: np.random.Generator) -> Deme:
+        """Return the next generation of the population ``state.demes[which]``.
+
+        ``planner`` holds the operators, and `Evolution.vary` and
+        `Evolution.evaluate` put them to work.
+        """
 
 
 @dataclass(frozen=True, kw_only=True)
 class Generational(Control):
     """Select, vary, evaluate, survive: once a generation."""
 
-    def advance(
-        self, planner: "Evolution", deme: Deme, problem: Problem, progress: float, rng: np.random.Generator
-    ) -> Deme:
+    def advance(self, planner: "Evolution", state: State, which: int, rng: np.random.Generator) -> Deme:
+        deme, problem = state.demes[which], state.problem
         parents = planner.selection.select(deme.fitness, len(deme), rng)
+        progress = planner.progress(state)
         children = planner.vary(deme.population[parents], deme.fitness[parents], problem, progress, rng)
         return planner.survival.survive(deme, planner.evaluate(children, problem), problem, rng)
 
@@ -104,15 +106,16 @@ class Evolution(Planner):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_requirements()
+        if self.weighting is not None:
+            self.weighting.check(self.objectives)
 
     @property
     def terms(self) -> Terms:
         return self.objectives
 
-    @property
-    def weights(self) -> Floats:
-        """The weights (m,) of the objectives."""
-        return self.objectives.weights if self.weighting is None else self.weighting.weights(len(self.objectives))
+    def weights(self, problem: Problem) -> Floats:
+        """Return the weights (m,) of the objectives."""
+        return self.objectives.weights if self.weighting is None else self.weighting.weights(self.objectives, problem)
 
     def start(self, problem: Problem, rng: np.random.Generator) -> State:
         self._check_representation(problem)
@@ -127,13 +130,11 @@ class Evolution(Planner):
     def step(self, state: State) -> State:
         began = time.perf_counter()
         rng = generator(state.random)
-        generation = state.generation + 1
-        progress = self.progress(state)
         with counting() as counts:
-            demes = tuple(self.control.advance(self, d, state.problem, progress, rng) for d in state.demes)
+            demes = tuple(self.control.advance(self, state, which, rng) for which in range(len(state.demes)))
             if self.migration is not None:
-                demes = self.migration.exchange(demes, generation, rng)
-            return self._reached(state, demes, generation, rng, counts, began)
+                demes = self.migration.exchange(demes, state, rng)
+            return self._reached(state, demes, state.generation + 1, rng, counts, began)
 
     def done(self, state: State) -> bool:
         return any(len(deme) == 0 for deme in state.demes) or super().done(state)
@@ -180,7 +181,7 @@ class Evolution(Planner):
         distinct, which = problem.representation.distinct(population)
         objectives = [term.objective for term in self.objectives]
         values = measure(objectives, population[distinct], problem)
-        fitness = self.fitness.combine(values, self.weights)
+        fitness = self.fitness.combine(values, self.weights(problem))
         return Deme(population, values[which], fitness[which], distinct)
 
     @staticmethod

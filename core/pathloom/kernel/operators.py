@@ -15,7 +15,7 @@ from pathloom.kernel.component import Component, Share
 from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
-from pathloom.kernel.state import Deme
+from pathloom.kernel.state import Deme, State
 
 Indices = NDArray[np.intp]
 
@@ -144,5 +144,8 @@ class Migration(Component, ABC):
         """How many populations there are."""
 
     @abstractmethod
-    def exchange(self, demes: tuple[Deme, ...], generation: int, rng: np.random.Generator) -> tuple[Deme, ...]:
-        """Return the demes after the exchange that is due in this generation, if one is."""
+    def exchange(self, demes: tuple[Deme, ...], state: State, rng: np.random.Generator) -> tuple[Deme, ...]:
+        """Return the demes of generation ``state.generation + 1`` after the exchange that is then due, if one is.
+
+        ``state`` is that of the generation before.
+        """

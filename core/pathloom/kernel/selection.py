@@ -47,6 +47,22 @@ class Tournament(Selection):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ByLayers(Selection):
+    """Copy the best third twice and the middle third once, and drop the rest.
+
+    Where the number does not divide by three, the best of the bottom layer make
+    up the difference.
+    """
+
+    def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
+        ranked = np.argsort(-fitness, kind="stable")
+        if len(ranked) < n:
+            ranked = np.resize(ranked, n)
+        third = n // 3
+        return np.concatenate((ranked[:third], ranked[: 2 * third + n % 3]))
+
+
+@dataclass(frozen=True, kw_only=True)
 class RandomPairs(Pairing):
     """Shuffle, and let neighbours be pairs; of an odd number one stays alone."""
 

@@ -21,6 +21,12 @@ def flat_ids(cells: NDArray[Any], cols: int) -> NDArray[np.int32]:
     return (wide[:, 0] * cols + wide[:, 1]).astype(np.int32)
 
 
+def cells_of(ids: NDArray[Any], cols: int) -> Path:
+    """Return the cells (k, 2) of flat ids (k,)."""
+    wide = ids.astype(np.int64, copy=False)
+    return np.stack((wide // cols, wide % cols), axis=1)
+
+
 @dataclass(frozen=True, kw_only=True)
 class CellPaths(Representation):
     """Paths as rows of flat cell ids, int32 (n, width), padded with −1.
@@ -35,8 +41,7 @@ class CellPaths(Representation):
 
     def decode(self, row: NDArray[Any]) -> Path:
         """Return the cells (k, 2) of one row."""
-        ids = row[row >= 0].astype(np.int64)
-        return np.stack((ids // self.cols, ids % self.cols), axis=1)
+        return cells_of(row[row >= 0], self.cols)
 
     def encode(self, paths: Sequence[NDArray[np.integer[Any]]]) -> Population:
         """Return the population of some paths, each (k, 2)."""

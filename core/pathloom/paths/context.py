@@ -96,6 +96,15 @@ class Context:
 
     def neighbours(self, reach: Literal[4, 8] = 8, border: bool = False) -> Bytes:
         """Return how many of the 4 or 8 neighbours of each cell are obstacles; ``border``: outside the map counts."""
+        if (reach, border) not in self._neighbours:
+            self._neighbours[reach, border] = self._count_neighbours(reach, border)
+        return self._neighbours[reach, border]
+
+    @cached_property
+    def _neighbours(self) -> dict[tuple[int, bool], Bytes]:
+        return {}
+
+    def _count_neighbours(self, reach: Literal[4, 8], border: bool) -> Bytes:
         blocked = np.pad(self.occupied, 1, constant_values=border).astype(np.uint8)
         rows, cols = self.occupied.shape
         total = np.zeros((rows, cols), np.uint8)
@@ -103,7 +112,7 @@ class Context:
             total += blocked[1 + dr : 1 + dr + rows, 1 + dc : 1 + dc + cols]
         return _flat(total)
 
-    @cached_property
+    @property
     def obstacles_near(self) -> Bytes:
         """Number of obstacles among the 8 neighbours; outside the map does not count."""
         return self.neighbours(8)

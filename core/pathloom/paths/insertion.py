@@ -1,5 +1,6 @@
 """Median insertion, the way in which several papers make a path out of a few cells."""
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -8,6 +9,7 @@ from pathloom import compiled
 from pathloom.kernel.counting import count
 from pathloom.kernel.operators import Indices
 from pathloom.kernel.representation import Population
+from pathloom.paths.context import Cells
 from pathloom.paths.problem import PathProblem
 
 
@@ -49,6 +51,58 @@ def sample_by_insertion(
     )  # fmt: skip
     count("samples failed", failed)
     count("samples drawn again", again)
+    return _repeated(found, n)
+
+
+def sample_through(
+    problem: PathProblem,
+    libraries: Sequence[Cells],
+    n: int,
+    rng: np.random.Generator,
+    *,
+    tries: int,
+    insertions: int,
+    step: int = 0,
+    redraws: int = 1,
+    to_goal: bool = False,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Draw n paths start – a random cell of each library – goal, with gaps closed by median insertion.
+
+    Parameters
+    ----------
+    libraries
+        Free cells (flat ids) of which the path visits one each, in this order; empty ones are passed over.
+    tries
+        Failures in a row after which no other path is looked for. If at least
+        one was found by then, those found are repeated to make up n; such
+        repeats, and the failures, are counted.
+    step
+        Each cell lies less than so many rows and columns from the one before,
+        else it is drawn again, up to ``redraws`` times; 0: no limit.
+    to_goal
+        The last cell must lie as near to the goal.
+    insertions, reach, guarded, loops
+        As for `sample_by_insertion`.
+    """
+    it = problem.context
+    if it.start == it.goal:
+        return np.full((n, 1), it.start, np.int32)
+    filled = [np.asarray(cells, np.int32) for cells in libraries if len(cells)]
+    begin = np.cumsum([0, *map(len, filled)])
+    cells = np.concatenate(filled) if filled else np.empty(0, np.int32)
+    found, failed = compiled.libraries.sample_from_libraries(
+        n, tries, redraws, step, to_goal, it.start, it.goal, cells, begin, it.blocked, it.moves, it.rows, it.cols,
+        *it.signs, reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("samples failed", failed)
+    return _repeated(found, n)
+
+
+def _repeated(found: Population, n: int) -> Population:
+    """Return n paths: those found, again and again, where there are fewer; none where there is none."""
     if 0 < len(found) < n:
         count("samples repeated", n - len(found))
         return np.ascontiguousarray(found[np.arange(n) % len(found)])

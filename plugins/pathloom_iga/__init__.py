@@ -1,0 +1,8 @@
+"""pathloom_iga."""
+
+from pathloom import Add, hookimpl
+
+
+@hookimpl
+def register(add: Add) -> None:
+    """Add nothing yet."""

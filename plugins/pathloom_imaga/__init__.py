@@ -1,0 +1,8 @@
+"""pathloom_imaga."""
+
+from pathloom import Add, hookimpl
+
+
+@hookimpl
+def register(add: Add) -> None:
+    """Add nothing yet."""
