@@ -11,7 +11,7 @@ from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnati
 from pathloom.paths.collision import Exact
 from pathloom.paths.deletion import PointDeletion
 from pathloom.paths.loops import LoopRemoval
-from pathloom.paths.objectives import Clearance, Length, TurnAngle, Turns, UnsafeCells
+from pathloom.paths.objectives import Clearance, Length, ObstaclesBeside, TurnAngle, Turns, UnsafeCells
 from pathloom.paths.tree_seeding import PerturbedTrees
 
 
@@ -21,7 +21,7 @@ def register(add: Add) -> None:
     for component in (
         Evolution, Generational, BestRefined,
         PerturbedTrees,
-        Length, UnsafeCells, Turns, TurnAngle, Clearance,
+        Length, UnsafeCells, ObstaclesBeside, Turns, TurnAngle, Clearance,
         ReciprocalOfSum, WeightedReciprocals,
         Roulette, Tournament, RandomPairs, ConsecutivePairs,
         Replacement, KeepBest, BestOfBoth,

@@ -49,6 +49,30 @@ def sum_over_nodes(population, table, skip_first, skip_last):
     return found
 
 
+@kernel("f8[::1](i4[:, ::1], u1[::1], i8, i8)")
+def obstacles_beside(population, blocked, rows, cols):
+    """Count for each path the distinct obstacles among the 8 neighbours of its nodes, both ends included."""
+    per_row = 1.0 / cols
+    found = np.zeros(population.shape[0])
+    seen = np.zeros(blocked.shape[0], np.int32)
+    for k in range(population.shape[0]):
+        total = 0
+        for i in range(population.shape[1]):
+            cell = population[k, i]
+            if cell < 0:
+                break
+            r = row_of(cell, per_row)
+            c = cell - r * cols
+            for rr in range(max(r - 1, 0), min(r + 2, rows)):
+                for cc in range(max(c - 1, 0), min(c + 2, cols)):
+                    beside = rr * cols + cc
+                    if blocked[beside] and seen[beside] != k + 1:
+                        seen[beside] = k + 1
+                        total += 1
+        found[k] = total
+    return found
+
+
 @kernel("f8[:, ::1](i4[:, ::1], i8)")
 def turns(population, cols):
     """Return for each path the number of its turns and the sum of their angles in radians.

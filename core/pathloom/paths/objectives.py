@@ -1,11 +1,12 @@
 """The kernel's own objectives on paths. All are minimised."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from pathloom import compiled
+from pathloom.kernel.component import NonNegative, Positive
 from pathloom.kernel.evaluation import Floats, Objective
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
@@ -31,6 +32,27 @@ class UnsafeCells(Objective):
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem).context
         return np.asarray(compiled.measures.flagged_cells(population, it.unsafe, it.cols))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ObstaclesBeside(Objective):
+    """Number of distinct obstacles among the 8 neighbours of the path, each charged once; ends included."""
+
+    works_on: ClassVar[str] = "cells"
+
+    base: NonNegative = 0.0
+    """What a path costs that passes no obstacle."""
+    each: Positive = 1.0
+    """What each obstacle adds."""
+    of: Literal["nodes", "cells"] = "nodes"
+    """Whose neighbours count: those of the path's nodes, or of every cell whose inside it crosses."""
+
+    def measure(self, population: Population, problem: Problem) -> Floats:
+        it = path_problem(problem).context
+        if self.of == "cells":
+            population = compiled.reshaping.cell_by_cell(population, it.cols)
+        found = compiled.measures.obstacles_beside(population, it.blocked, it.rows, it.cols)
+        return np.asarray(self.base + self.each * found)
 
 
 @dataclass(frozen=True, kw_only=True)
