@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pathloom import compiled as compiled
+    from pathloom.claims import Bench, Claim, Finding
     from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
     from pathloom.exact import any_angle_path, octile_path, validate
     from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     from pathloom.result import Result
 
 _HOME = {
+    "claims": ("Bench", "Claim", "Finding"),
     "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
     "exact": ("any_angle_path", "octile_path", "validate"),
     "grid": ("OccupancyGrid", "full_cell_cover", "write_map"),
@@ -78,7 +80,9 @@ _FROM = {name: module for module, names in _HOME.items() for name in names}
 __all__ = [
     "Add",
     "Archive",
+    "Bench",
     "CellPaths",
+    "Claim",
     "Collision",
     "Component",
     "ConfigError",
@@ -88,6 +92,7 @@ __all__ = [
     "Deme",
     "Evolution",
     "Fidelity",
+    "Finding",
     "Fitness",
     "Floats",
     "Indices",

@@ -70,6 +70,12 @@ class Result:
         """Length in cells; inf without a path."""
         return float(self.metrics.get("length", math.inf))
 
+    @property
+    def convergence(self) -> int | None:
+        """The generation that found the best fitness of the run; ``None`` without a history."""
+        best = self.history.get("best") or []
+        return next((k for k, value in enumerate(best) if value == best[-1]), None)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON document as Python values."""
         document: dict[str, Any] = {"schema": SCHEMA}

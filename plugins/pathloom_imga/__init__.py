@@ -11,7 +11,7 @@ Multiobjective Genetic Algorithm", Wireless Communications and Mobile Computing
 
 Section by section: 4.1 ``sampling``, 4.2 ``objectives``, 4.3.1 ``selection``,
 4.3.2 ``crossover``, 4.3.3 ``mutation``, 4.5 ``deletion``, 4.4, 4.6 and 5.1
-``planner``. What the paper leaves open stands at the statement it concerns and
+``planner``, 5 ``claims``. What the paper leaves open stands at the statement it concerns and
 in the planner's ``assumptions``.
 """
 
@@ -21,6 +21,7 @@ from pathloom import Add, hookimpl
 @hookimpl
 def register(add: Add) -> None:
     """Add the paper's operators and its planner."""
+    from pathloom_imga.claims import Table1, Table2, Table3, Table4
     from pathloom_imga.crossover import CommonNode
     from pathloom_imga.deletion import SequentialPointDeletion
     from pathloom_imga.mutation import D8GeneMedian
@@ -38,5 +39,9 @@ def register(add: Add) -> None:
         D8GeneMedian,
         SequentialPointDeletion,
         Imga,
+        Table1,
+        Table2,
+        Table3,
+        Table4,
     ):
         add(component)

@@ -106,6 +106,27 @@ def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], Non
 
 
 @contextmanager
+def counting(what: str, total: int, *, quiet: bool) -> Iterator[Callable[[str], None]]:
+    """Give a function that is told what is done next, of so many things, and shows it where somebody looks."""
+    console = err()
+    bar = _bar(console)
+    task = bar.add_task(what, total=total)
+    done = -1
+
+    def next_is(name: str) -> None:
+        nonlocal done
+        done += 1
+        if not quiet and console.is_terminal:
+            bar.start()
+            bar.update(task, completed=done, description=name)
+
+    try:
+        yield next_is
+    finally:
+        _stop(bar)
+
+
+@contextmanager
 def between_generations() -> Iterator[Callable[[bool], None]]:
     """Give a function that raises KeyboardInterrupt once Ctrl-C was pressed; told of the last one, it stops listening.
 

@@ -1,0 +1,176 @@
+"""No operator and no planner knows where north is.
+
+Map, start, goal and population are turned and mirrored, the operator is applied, and
+the result is turned back. What is deterministic must come out the same, bit for bit
+(sums to the last digits); what is random must have the same distribution.
+"""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.stats import ks_2samp
+
+import pathloom as pl
+from pathloom.kernel.component import members, parameters
+from pathloom.kernel.compose import build, compose
+from pathloom.kernel.registry import default_registry
+from pathloom.kernel.run import run
+
+ENTRIES = [e for e in default_registry().all_entries() if not any(p.required for p in parameters(e.component))]
+SYMMETRIES = [(turns, mirrored) for mirrored in (False, True) for turns in range(4)]
+LEAST_P = 1e-4
+"""Of some two thousand comparisons with fixed seeds none falls below it by chance alone."""
+
+
+def _depends_on_position(component):
+    """Whether a part accumulates floating steps from absolute coordinates, as its paper prints it."""
+    if getattr(component, "arithmetic", "exact") == "floating":
+        return True
+    return any(_depends_on_position(part) for _, part in members(component))
+
+
+def exactly(component):
+    """The component, with exact arithmetic in place of floating steps."""
+    changes = {name: exactly(part) for name, part in members(component) if _depends_on_position(part)}
+    if getattr(component, "arithmetic", "exact") == "floating":
+        changes["arithmetic"] = "exact"
+    return dataclasses.replace(component, **changes) if changes else component
+
+
+def of(kind):
+    found = [e for e in ENTRIES if issubclass(e.component, kind) and e.component.works_on in ("", "cells")]
+    assert found
+    return pytest.mark.parametrize("component", [exactly(e.component()) for e in found], ids=[e.name for e in found])
+
+
+class View:
+    """A problem, turned and mirrored."""
+
+    def __init__(self, occupied, start, goal, corners, symmetry):
+        turns, mirrored = symmetry
+        cells = np.arange(occupied.size).reshape(occupied.shape)
+        here = np.rot90(cells, turns)
+        here = np.ascontiguousarray(here[:, ::-1] if mirrored else here)
+        self.old = here.ravel().astype(np.int32)
+        self.new = np.argsort(self.old).astype(np.int32)
+        ends = [divmod(int(self.new[r * occupied.shape[1] + c]), here.shape[1]) for r, c in (start, goal)]
+        self.problem = pl.PathProblem(occupied.ravel()[here], start=ends[0], goal=ends[1], corners=corners)
+
+    def there(self, population):
+        return np.where(population < 0, -1, self.new[population])
+
+    def back(self, population):
+        return np.where(population < 0, -1, self.old[population])
+
+
+def views(corners="no-squeeze"):
+    occupied = np.ascontiguousarray(pl.load_map("blocks-15:22%:s4").occupied[:, :12])
+    return [View(occupied, (13, 1), (2, 10), corners, symmetry) for symmetry in SYMMETRIES]
+
+
+def first_population(problem, n):
+    trees = build(pl.Sampling, "perturbed-trees", default_registry(), "")
+    return trees.sample(problem, n, np.random.default_rng(0))
+
+
+def features(population, cols):
+    """Length, mean row and mean column of each path: what would betray a direction."""
+    inside = population >= 0
+    counts = inside.sum(axis=1)
+    rows, columns = (np.where(inside, part, 0) for part in (population // cols, population % cols))
+    steps = np.where(inside[:, 1:], np.hypot(np.diff(rows, axis=1), np.diff(columns, axis=1)), 0.0)
+    return np.stack((steps.sum(axis=1), rows.sum(axis=1) / counts, columns.sum(axis=1) / counts), axis=1).round(9)
+
+
+def assert_same_distribution(samples):
+    for sample in samples[1:]:
+        for name, ours, theirs in zip(("length", "row", "column"), samples[0].T, sample.T, strict=True):
+            assert ks_2samp(ours, theirs, method="asymp").pvalue > LEAST_P, name
+
+
+@of(pl.Sampling)
+def test_sampling_has_no_favourite_direction(component):
+    found = []
+    for seed, view in enumerate(views()):
+        rng = np.random.default_rng(seed)
+        drawn = [component.sample(view.problem, 1, rng) for _ in range(300)]  # of one call they may have much in common
+        found.append(np.concatenate([features(view.back(population), 12) for population in drawn]))
+        assert len(found[-1]) > 200
+    assert_same_distribution(found)
+
+
+@of(pl.Crossover)
+def test_crossover_has_no_favourite_direction(component):
+    found = []
+    for seed, view in enumerate(views()):
+        parents = view.there(first_population(views()[0].problem, 300))
+        pairs = np.arange(300).reshape(-1, 2)
+        rng = np.random.default_rng(seed)
+        children = [component.cross(parents, pairs, view.problem, rng) for _ in range(2)]
+        found.append(np.concatenate([features(view.back(c), 12) for c in children]))
+    assert_same_distribution(found)
+
+
+@of(pl.Mutation)
+def test_mutation_has_no_favourite_direction(component):
+    found = []
+    for seed, view in enumerate(views()):
+        parents = view.there(first_population(views()[0].problem, 300))
+        rng = np.random.default_rng(seed)
+        mutants = [component.apply(parents, np.arange(300), view.problem, rng) for _ in range(2)]
+        found.append(np.concatenate([features(view.back(m), 12) for m in mutants]))
+    assert_same_distribution(found)
+
+
+@pytest.mark.parametrize("corners", ["strict", "no-squeeze", "allow"])
+@of(pl.Repair)
+def test_what_is_repaired_without_chance_comes_out_the_same(component, corners):
+    first = first_population(views(corners)[0].problem, 60)
+    results = []
+    for view in views(corners):
+        repaired = component.apply(view.there(first), view.problem, np.random.default_rng(0))
+        results.append([row[row >= 0].tolist() for row in view.back(repaired)])
+    assert all(result == results[0] for result in results)
+
+
+@pytest.mark.parametrize("corners", ["strict", "no-squeeze", "allow"])
+@of(pl.Collision)
+def test_a_segment_is_free_from_every_side(component, corners):
+    all_views = views(corners)
+    free = np.argwhere(~all_views[0].problem.context.occupied)
+    rng = np.random.default_rng(1)
+    a, b = (free[rng.integers(len(free), size=600)] for _ in range(2))
+    results = []
+    for view in all_views:
+        ends = [view.new[c[:, 0] * 12 + c[:, 1]] for c in (a, b)]
+        cols = view.problem.context.cols
+        first, second = (np.stack((ids // cols, ids % cols), axis=1) for ids in ends)
+        results.append(component.segments_free(first, second, view.problem).tolist())
+    assert all(result == results[0] for result in results)
+
+
+@of(pl.Objective)
+def test_objectives_have_the_same_value_from_every_side(component):
+    first = first_population(views()[0].problem, 60)
+    deleted = build(pl.Repair, "point-deletion", default_registry(), "").apply(
+        first, views()[0].problem, np.random.default_rng(0)
+    )
+    for population in (first, deleted):
+        values = [component.measure(view.there(population), view.problem) for view in views()]
+        for other in values[1:]:
+            assert np.allclose(other, values[0], rtol=1e-12, atol=1e-12)
+
+
+PLANNERS = [e for e in ENTRIES if issubclass(e.component, pl.Evolution)]
+
+
+@pytest.mark.parametrize("entry", PLANNERS, ids=lambda e: e.name)
+def test_planners_have_no_favourite_direction(entry):
+    planner = compose(exactly(entry.component()), population=15, termination=[{"use": "max-generations", "limit": 6}])
+    found = []
+    for turn, view in enumerate(views()):
+        paths = [run(view.problem, planner, 100 * turn + seed).outcome.solution for seed in range(40)]
+        found.append(np.concatenate([features(view.back(p[np.newaxis]), 12) for p in paths if p is not None]))
+        assert len(found[-1]) == 40
+    assert_same_distribution(found)
