@@ -107,6 +107,25 @@ def crossed(shape: tuple[int, int], path: Cells) -> set[Cell]:
     }
 
 
+def cell_by_cell(path: Cells) -> Cells:
+    """Return the cells whose inside a path crosses, in the order of the path."""
+    found = [path[0]]
+    for (r0, c0), (r1, c1) in pairwise(path):
+        dr, dc = r1 - r0, c1 - c0
+        box = [(r, c) for r in range(min(dr, 0), max(dr, 0) + 1) for c in range(min(dc, 0), max(dc, 0) + 1)]
+        inside = [cell for cell in box if meets(dr, dc, *cell) == "inside"]
+        inside.sort(key=lambda cell: cell[0] * dr + cell[1] * dc)  # how far along the segment its centre lies
+        found += [(r0 + r, c0 + c) for r, c in inside[1:]]
+    return tuple(found)
+
+
+def obstacles_beside(blocked: np.ndarray, cells: Iterable[Cell]) -> set[Cell]:
+    """Return the obstacles that are one of the eight neighbours of one of the cells."""
+    cells = list(cells)
+    obstacles = [(r, c) for r, c in np.argwhere(blocked).tolist()]
+    return {o for o in obstacles if any(max(abs(o[0] - r), abs(o[1] - c)) == 1 for r, c in cells)}
+
+
 def clearance(blocked: np.ndarray, path: Cells) -> float:
     """Return the least distance from a path to a closed obstacle cell: nearest corners and nearest ends."""
     best: Fraction | float = math.inf
@@ -130,14 +149,19 @@ def _squared_distance(p: tuple[Fraction, Fraction], a: Cell, b: Cell) -> Fractio
 
 def without_points(blocked: np.ndarray, path: Cells, corners: str, passes: int) -> Cells:
     """Drop points whose neighbours see each other, front to back; 0 passes: until nothing changes."""
+    return without_points_by(lambda a, b: segment_free(blocked, a, b, corners), path, passes)
+
+
+def without_points_by(sees: Callable[[Cell, Cell], bool], path: Cells, passes: int) -> Cells:
+    """Drop points between two that see each other, by whatever ``sees`` says."""
     kept = [path[0]]
     for point, following in pairwise(path[1:]):
-        if not segment_free(blocked, kept[-1], following, corners):
+        if not sees(kept[-1], following):
             kept.append(point)
     shorter = (*kept, path[-1]) if len(path) > 1 else path
     if passes == 1 or shorter == path:
         return shorter
-    return without_points(blocked, shorter, corners, max(passes - 1, 0))
+    return without_points_by(sees, shorter, max(passes - 1, 0))
 
 
 # Paths ------------------------------------------------------------------------------------------

@@ -242,9 +242,11 @@ def ranked(*fitness):
 def test_the_best_parents_take_the_places_of_the_worst_children(registry):
     problem, _ = load(SPHERE, registry)
     after = KeepBest(elites=2).survive(ranked(9, 1, 8, 2), ranked(3, 4, 5, 6), problem, np.random.default_rng(0))
-    assert after.fitness.tolist() == [9, 8, 6, 5]
-    assert after.values[:, 0].tolist() == [9, 8, 6, 5]
-    assert after.population[:, 0].tolist() == [9, 10, 9, 7]
+    assert after.fitness.tolist() == [9, 8, 5, 6]
+    assert after.values[:, 0].tolist() == [9, 8, 5, 6]
+    assert after.population[:, 0].tolist() == [9, 10, 7, 9]
+    one = KeepBest().survive(ranked(1, 9), ranked(3, 2), problem, np.random.default_rng(0))
+    assert one.fitness.tolist() == [3, 9]
 
 
 def test_of_parents_and_children_the_fittest_are_left(registry):

@@ -66,7 +66,7 @@ def obstacles_beside(population, blocked, rows, cols):
             for rr in range(max(r - 1, 0), min(r + 2, rows)):
                 for cc in range(max(c - 1, 0), min(c + 2, cols)):
                     beside = rr * cols + cc
-                    if blocked[beside] and seen[beside] != k + 1:
+                    if blocked[beside] and beside != cell and seen[beside] != k + 1:
                         seen[beside] = k + 1
                         total += 1
         found[k] = total

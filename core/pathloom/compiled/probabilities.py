@@ -12,20 +12,20 @@ def _share(value, low, high):
     """Return how far a value lies from ``high`` towards ``low``, in [0, 1]; infinite fitness is at the very top."""
     if value >= high:
         return 0.0
-    if not math.isfinite(high) or not math.isfinite(low):
+    if value <= low or not math.isfinite(high):
         return 1.0
     return (high - value) / (high - low)
 
 
 @part("UniTuple(f8, 3)(f8[::1])")
 def _spread(fitness):
-    """Return the least, the mean and the greatest fitness."""
+    """Return the least, the mean and the greatest fitness; rounding never takes the mean beyond the others."""
     low, total, high = np.inf, 0.0, -np.inf
     for k in range(fitness.shape[0]):
         low = min(low, fitness[k])
         high = max(high, fitness[k])
         total += fitness[k]
-    return low, total / max(fitness.shape[0], 1), high
+    return low, min(max(total / max(fitness.shape[0], 1), low), high), high
 
 
 @kernel("f8[::1](f8[::1], f8, f8, f8, f8)")
@@ -34,10 +34,10 @@ def falling(fitness, equal, above, below, factor):
 
     ``equal`` where all are as fit. All are multiplied by ``factor`` and cut to [0, 1].
     """
-    _, mean, high = _spread(fitness)
+    low, mean, high = _spread(fitness)
     rates = np.empty(fitness.shape[0])
     for k in range(fitness.shape[0]):
-        if high <= mean:
+        if high <= low:
             rate = equal
         elif fitness[k] < mean:
             rate = below
@@ -59,9 +59,10 @@ def banded(fitness, base, swing, bands):
         rate = base
         if high > low:
             r = _share(fitness[k], low, high)
-            if 1.0 - r < 1.0 / bands:
+            # Products instead of quotients: whoever stands on the edge of a band is not rounded into it.
+            if fitness[k] <= low or bands * (fitness[k] - low) < high - low:
                 rate = base + swing * r
-            elif 1.0 - r > (bands - 1.0) / bands:
+            elif fitness[k] >= high or bands * (high - fitness[k]) < high - low:
                 rate = base * r
         rates[k] = min(1.0, max(0.0, rate))
     return rates
@@ -70,13 +71,14 @@ def banded(fitness, base, swing, bands):
 @kernel("f8[::1](f8[::1], f8, f8)")
 def sinc(fitness, low_rate, high_rate):
     """Return rates that fall along a sinc from the mean to ``low_rate`` at the best; ``high_rate`` under the mean."""
-    _, mean, high = _spread(fitness)
+    low, mean, high = _spread(fitness)
+    level = mean / high if mean > 0.0 and math.isfinite(high) else 0.0
     rates = np.empty(fitness.shape[0])
     for k in range(fitness.shape[0]):
         rate = high_rate
-        if high > mean and fitness[k] >= mean:
+        if high > low and fitness[k] >= mean:
             x = math.pi * (1.0 - _share(fitness[k], mean, high))
             wave = 1.0 if x == 0.0 else math.sin(x) / x
-            rate = low_rate + wave * (mean / high if math.isfinite(high) else 0.0) * (high_rate - low_rate)
+            rate = low_rate + wave * level * (high_rate - low_rate)
         rates[k] = min(1.0, max(0.0, rate))
     return rates

@@ -119,13 +119,21 @@ class WeightedReciprocals(Fitness):
     floors: tuple[NonNegative, ...] = (1.0,)
     """One for each objective, in order; the last one stands for all that follow."""
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not self.floors:
+            raise ConfigError(f"{self.name}: floors is a list of at least one number; got none")
+
     def combine(self, values: Floats, weights: Floats) -> Floats:
-        given = len(self.floors)
-        if given == 0:
-            raise ConfigError("weighted-reciprocals: floors is a list of at least one number; got none")
-        floors = [self.floors[min(k, given - 1)] for k in range(values.shape[1])]
-        with np.errstate(divide="ignore"):
-            return np.asarray((weights / np.maximum(values, floors)).sum(axis=1))
+        values = np.maximum(values, self._floors_of(values.shape[1]))
+        if min(self.floors) > 0:
+            return np.asarray(np.reciprocal(values) @ weights)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            parts = weights / (values + 0.0)  # -0.0 becomes 0.0
+        return np.asarray(parts.sum(axis=1, where=weights > 0.0))  # 0 / 0 counts as nothing
+
+    def _floors_of(self, terms: int) -> Floats:
+        return np.array((self.floors + self.floors[-1:] * terms)[:terms])
 
 
 def measure(objectives: Sequence[Objective], population: Population, problem: Problem) -> Floats:

@@ -10,6 +10,7 @@ component of kind *control* or *migration*, never a branch in this loop.
 import time
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -115,7 +116,11 @@ class Evolution(Planner):
 
     def weights(self, problem: Problem) -> Floats:
         """Return the weights (m,) of the objectives."""
-        return self.objectives.weights if self.weighting is None else self.weighting.weights(self.objectives, problem)
+        return self._weights if self.weighting is None else self.weighting.weights(self.objectives, problem)
+
+    @cached_property
+    def _weights(self) -> Floats:
+        return self.objectives.weights
 
     def start(self, problem: Problem, rng: np.random.Generator) -> State:
         self._check_representation(problem)
@@ -259,7 +264,8 @@ class Evolution(Planner):
 
     def _check_representation(self, problem: Problem) -> None:
         given = problem.representation.name
-        parts = [part for _, part in members(self)] + list(self.objectives.objectives())
+        parts: list[Component] = [part for _, part in members(self)] + list(self.objectives.objectives())
         for part in parts:
+            parts += [inner for _, inner in members(part)]  # the list grows by what stands in the slots of its members
             if part.works_on and part.works_on != given:
                 raise ConfigError(f"{part.kind} {part.name!r} works on {part.works_on!r}; the problem has {given!r}")

@@ -18,8 +18,10 @@ class InTurn(Repair):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        lost = frozenset().union(*(step.breaks for step in self.steps))
-        object.__setattr__(self, "breaks", lost)  # what one of the steps loses is lost
+        # What one of the steps loses is lost, and what one of them needs is needed.
+        for name in ("breaks", "needs"):
+            of_all = frozenset().union(*(getattr(step, name) for step in self.steps))
+            object.__setattr__(self, name, of_all)
 
     def apply(self, population: Population, problem: Problem, rng: np.random.Generator) -> Population:
         for step in self.steps:

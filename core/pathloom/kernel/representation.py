@@ -27,6 +27,12 @@ class Representation(Component, ABC):
         """Return the rows of both populations in one."""
         return np.concatenate((first, second))
 
+    def replaced(self, population: Population, places: NDArray[np.intp], rows: Population) -> Population:
+        """Return the population with other individuals, ``rows`` (k, width), in some of its places (k,)."""
+        out = population.copy()
+        out[places] = rows
+        return out
+
     def distinct(self, population: Population) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Return the indices (d,) of the first of each distinct individual, and for every row which of those it is."""
         _, first, which = np.unique(population, axis=0, return_index=True, return_inverse=True)

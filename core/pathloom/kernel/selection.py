@@ -1,5 +1,6 @@
 """Selection and pairing that no paper owns."""
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -21,16 +22,15 @@ class Roulette(Selection):
     source: ClassVar[str] = "Holland 1975"
 
     def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
-        share = fitness
-        if not np.isfinite(share.sum()):
-            share = np.isposinf(fitness).astype(np.float64)
-        elif share.min() < 0:
-            share = share - share.min()
-        wheel = np.cumsum(share)
-        if wheel[-1] <= 0:
+        wheel = fitness.cumsum()
+        if not math.isfinite(wheel[-1]) or fitness.min() < 0:
+            infinite = np.isposinf(fitness)
+            wheel = np.cumsum(infinite if infinite.any() else fitness - fitness.min(), dtype=np.float64)
+        total = float(wheel[-1])
+        if total <= 0:
             return rng.integers(len(fitness), size=n)
-        spun = np.searchsorted(wheel, rng.random(n) * wheel[-1], side="right")
-        return np.asarray(np.minimum(spun, len(fitness) - 1))
+        wheel[-1] = math.inf  # the last one's share ends the wheel, whatever rounding says
+        return np.asarray(wheel.searchsorted(rng.random(n) * total, side="right"))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,9 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from pathloom.kernel.component import Count
-from pathloom.kernel.operators import Survival
+from pathloom.kernel.operators import Indices, Survival
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.state import Deme
+
+
+def replaced(deme: Deme, places: Indices, other: Deme, rows: Indices, problem: Problem) -> Deme:
+    """Return the deme with individuals of another one, ``rows`` (k,), in some of its places (k,)."""
+    values, fitness = deme.values.copy(), deme.fitness.copy()
+    values[places], fitness[places] = other.values[rows], other.fitness[rows]
+    population = problem.representation.replaced(deme.population, places, other.population[rows])
+    return Deme(population, values, fitness)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,15 +34,13 @@ class KeepBest(Survival):
     """How many parents are kept."""
 
     def survive(self, parents: Deme, children: Deme, problem: Problem, rng: np.random.Generator) -> Deme:
-        elites = min(self.elites, len(parents))
-        best = np.argsort(-parents.fitness, kind="stable")[:elites]
-        kept = np.argsort(-children.fitness, kind="stable")[: len(children) - elites]
-        stack = problem.representation.stack
-        return Deme(
-            stack(parents.population[best], children.population[kept]),
-            np.concatenate((parents.values[best], children.values[kept])),
-            np.concatenate((parents.fitness[best], children.fitness[kept])),
-        )
+        elites = min(self.elites, len(parents), len(children))
+        if elites == 1:
+            best, worst = np.array([parents.fitness.argmax()]), np.array([children.fitness.argmin()])
+        else:
+            best = np.argsort(-parents.fitness, kind="stable")[:elites]
+            worst = np.argsort(children.fitness, kind="stable")[:elites]
+        return replaced(children, worst, parents, best, problem)
 
 
 @dataclass(frozen=True, kw_only=True)
