@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from pathloom.kernel.planner import Planner
+from pathloom.kernel.registry import default_registry
+
 ROOT = Path(__file__).parent.parent
 PAGES = ("README.md", "plugins/README.md")
 
@@ -67,3 +70,10 @@ def test_links_lead_somewhere(page):
         name = target[0] or target[1]
         if not name.startswith("http"):
             assert (ROOT / page).parent.joinpath(name).exists(), name
+
+
+def test_the_table_of_planners_names_all_of_them():
+    section = (ROOT / "README.md").read_text(encoding="utf-8").split("## Planners")[1].split("\n## ")[0]
+    named = set(re.findall(r"`([a-z0-9-]+)`", section))
+    ours = {e.component.name for e in default_registry().all_entries(Planner) if e.source.ours}
+    assert ours <= named

@@ -38,10 +38,16 @@ if TYPE_CHECKING:
     from pathloom.kernel.termination import Termination
     from pathloom.paths.cell_paths import CellPaths, Path
     from pathloom.paths.collision import Collision
+    from pathloom.paths.colony import Colony
+    from pathloom.paths.curves import Curve, Smoother
+    from pathloom.paths.decoding import Decoder
     from pathloom.paths.maps import Map, load_map
     from pathloom.paths.numbering import Numbering
     from pathloom.paths.pathwise import PathCrossover, PathMutation, PathObjective, PathRepair, PathSampling
+    from pathloom.paths.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
     from pathloom.paths.problem import PathProblem
+    from pathloom.paths.swarm import Swarm
+    from pathloom.paths.vectors import VectorPlanner, VectorState
     from pathloom.planning import compose, freeze, iterate, plan
     from pathloom.result import Result
 
@@ -68,10 +74,16 @@ _HOME = {
     "kernel.termination": ("Termination",),
     "paths.cell_paths": ("CellPaths", "Path"),
     "paths.collision": ("Collision",),
+    "paths.colony": ("Colony",),
+    "paths.curves": ("Curve", "Smoother"),
+    "paths.decoding": ("Decoder",),
     "paths.maps": ("Map", "load_map"),
     "paths.numbering": ("Numbering",),
     "paths.pathwise": ("PathCrossover", "PathMutation", "PathObjective", "PathRepair", "PathSampling"),
+    "paths.pheromone": ("ColonyState", "Deadlock", "Heuristic", "InitialPheromone", "PheromoneUpdate"),
     "paths.problem": ("PathProblem",),
+    "paths.swarm": ("Swarm",),
+    "paths.vectors": ("VectorPlanner", "VectorState"),
     "planning": ("compose", "freeze", "iterate", "plan"),
     "result": ("Result",),
 }  # fmt: skip
@@ -84,18 +96,25 @@ __all__ = [
     "CellPaths",
     "Claim",
     "Collision",
+    "Colony",
+    "ColonyState",
     "Component",
     "ConfigError",
     "Control",
     "Count",
     "Crossover",
+    "Curve",
+    "Deadlock",
+    "Decoder",
     "Deme",
     "Evolution",
     "Fidelity",
     "Finding",
     "Fitness",
     "Floats",
+    "Heuristic",
     "Indices",
+    "InitialPheromone",
     "Map",
     "MapError",
     "Migration",
@@ -115,6 +134,7 @@ __all__ = [
     "PathRepair",
     "PathSampling",
     "PathloomError",
+    "PheromoneUpdate",
     "Planner",
     "PluginError",
     "Population",
@@ -128,11 +148,15 @@ __all__ = [
     "Sampling",
     "Selection",
     "Share",
+    "Smoother",
     "State",
     "Survival",
+    "Swarm",
     "Term",
     "Termination",
     "Terms",
+    "VectorPlanner",
+    "VectorState",
     "Weighting",
     "Whole",
     "__version__",

@@ -8,7 +8,11 @@ from pathloom.kernel.repair import InTurn
 from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, Tournament
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnation, TargetFitness, WallTime
+from pathloom.paths.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
 from pathloom.paths.collision import Exact
+from pathloom.paths.colony import Colony
+from pathloom.paths.curves import BSpline, CubicBezier
+from pathloom.paths.decoding import Rows, Waypoints
 from pathloom.paths.deletion import PointDeletion
 from pathloom.paths.loops import LoopRemoval
 from pathloom.paths.objectives import Clearance, Length, ObstaclesBeside, TurnAngle, Turns, UnsafeCells
@@ -26,6 +30,9 @@ def register(add: Add) -> None:
         Roulette, Tournament, RandomPairs, ConsecutivePairs,
         Replacement, KeepBest, BestOfBoth,
         PointDeletion, LoopRemoval, InTurn, Exact,
+        BSpline, CubicBezier,
+        Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,
+        Rows, Waypoints,
         MaxGenerations, MaxEvaluations, Stagnation, TargetFitness, WallTime,
     ):  # fmt: skip
         add(component)

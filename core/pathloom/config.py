@@ -9,10 +9,12 @@ from typing import Any
 from pathloom.errors import ConfigError, MapError, PathloomError, ProblemError
 from pathloom.files import neighbour, reason
 from pathloom.grid import OccupancyGrid
-from pathloom.kernel.compose import compose, freeze
+from pathloom.kernel.compose import NONE, build, compose, freeze
 from pathloom.kernel.planner import Planner
+from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import check_seed
 from pathloom.naming import closest
+from pathloom.paths.curves import Smoother
 from pathloom.paths.maps import SUFFIXES, load_map
 from pathloom.paths.problem import CORNER_NAMES, PathProblem
 
@@ -21,7 +23,7 @@ DEFAULT_MAP = "blocks-30:25%"
 """The map that is planned on when nobody names one."""
 
 SECTIONS = ("problem", "planner", "run")
-RUN = ("seed", "time_limit")
+RUN = ("seed", "time_limit", "smooth")
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,8 @@ class Config:
     planner: Mapping[str, Any] | Planner = field(default_factory=lambda: {"use": DEFAULT_PLANNER})
     seed: int = 0
     time_limit: float | None = None
+    smooth: Smoother | None = None
+    """What makes a curve of the path; empty: whatever the planner has for it."""
 
     def composed(self) -> "Config":
         """Return the config with its planner built."""
@@ -143,11 +147,21 @@ def from_document(document: Mapping[str, Any], folder: Path | None = None) -> Co
         seed = check_seed(run.get("seed", 0))
     except ConfigError as error:
         raise ConfigError(f"run.{error}") from error
-    return Config(spec, {"use": DEFAULT_PLANNER, **planner}, seed, limit)
+    return Config(spec, {"use": DEFAULT_PLANNER, **planner}, seed, limit, smoother(run.get("smooth"), "run.smooth"))
+
+
+def smoother(value: Any, where: str) -> Smoother | None:
+    """Return the smoother that a name, a table with ``use`` or a component stands for; ``none``: none of its own."""
+    return None if value is None or value == NONE else build(Smoother, value, default_registry(), where)
 
 
 def frozen(
-    problem: PathProblem, map_name: str, planner: Planner, seed: int, time_limit: float | None
+    problem: PathProblem,
+    map_name: str,
+    planner: Planner,
+    seed: int,
+    time_limit: float | None,
+    smooth: Smoother | None = None,
 ) -> dict[str, Any]:
     """Return the complete config of a run, every default filled in."""
     return {
@@ -159,7 +173,11 @@ def frozen(
             "radius": problem.radius,
         },
         "planner": freeze(planner),
-        "run": {"seed": seed, "time_limit": time_limit if time_limit is not None else "none"},
+        "run": {
+            "seed": seed,
+            "time_limit": time_limit if time_limit is not None else NONE,
+            **({} if smooth is None else {"smooth": freeze(smooth)}),
+        },
     }
 
 

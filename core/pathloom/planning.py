@@ -1,15 +1,17 @@
 """Planning: compose, run, verify, and put the result together."""
 
 import math
+import time
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
 from pathloom.compiled.jit import seconds_loading
-from pathloom.config import DEFAULT_PLANNER, frozen
+from pathloom.config import DEFAULT_PLANNER, frozen, smoother
 from pathloom.errors import ConfigError, ProblemError
 from pathloom.exact import any_angle_path, contacts, octile_path, validate
+from pathloom.exact.curves import validate_curve
 from pathloom.kernel import compose as composition
 from pathloom.kernel.compose import compose, freeze
 from pathloom.kernel.planner import Planner
@@ -19,6 +21,7 @@ from pathloom.kernel.run import check_interrupt, check_seed, run
 from pathloom.kernel.run import iterate as iterate_planner
 from pathloom.kernel.state import State
 from pathloom.paths.cell_paths import Path
+from pathloom.paths.curves import Curve, Points, PolylinePlanner, Smoother
 from pathloom.paths.metrics import metrics
 from pathloom.paths.problem import PathProblem
 from pathloom.result import Result, Status, describe_problem, versions
@@ -33,6 +36,7 @@ def plan(
     seed: int = 0,
     time_limit: float | None = None,
     optimum: bool = False,
+    smooth: str | Mapping[str, Any] | Smoother | None = None,
     map_name: str = "",
     watch: Callable[[State], None] | None = None,
 ) -> Result:
@@ -50,6 +54,9 @@ def plan(
         Seconds after which the best path so far is the answer.
     optimum
         Also compute the exact octile and any-angle optima, and the gaps to them.
+    smooth
+        What makes a curve of the path: a smoother's name, a table as in a config, or
+        a smoother. By default what the planner has for it, if anything.
     map_name
         What the result calls the map; by default the name that the grid bears.
     watch
@@ -59,23 +66,25 @@ def plan(
     -------
     Result
         With status ``found``, ``unreachable`` (said before any search) or
-        ``not-found``. A path that is returned has passed the exact validator.
+        ``not-found``. A path that is returned has passed the exact validator, a
+        curve the one for curves.
 
     Raises
     ------
     ConfigError
-        If the planner, one of its parts or the seed is not usable.
+        If the planner, one of its parts, the smoother or the seed is not usable.
     """
     seed = check_seed(seed)
     if time_limit is not None and not time_limit > 0:
         raise ConfigError(f"time limit: found {time_limit!r}, allowed seconds above 0")
     composed = composition.compose(planner)
+    asked_for = smoother(smooth, "smooth")
     name = map_name or problem.grid.name or "unnamed"
     facts: dict[str, Any] = {
         "planner": default_registry().name_of(type(composed)).rpartition("/")[2],
         "seed": seed,
         "problem": describe_problem(problem, name),
-        "config": frozen(problem, name, composed, seed, time_limit),
+        "config": frozen(problem, name, composed, seed, time_limit, asked_for),
         "versions": versions(),
         "path_problem": problem,
     }
@@ -97,6 +106,17 @@ def plan(
     state, outcome = finished.state, finished.outcome
     path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
     status: Status = "found" if path is not None else "not-found"
+    facts["interrupted"] = finished.interrupted
+    polyline, chosen = None, asked_for
+    if isinstance(composed, PolylinePlanner) and state is not None:
+        polyline, chosen = composed.polyline(state), asked_for or composed.smoothing
+    if path is not None and chosen is not None:
+        try:
+            facts["curve"], fault, phases = _smoothed(problem, chosen, path if polyline is None else polyline, phases)
+            reason = reason or fault
+        except (KeyboardInterrupt, SystemError) as error:  # the path is there already
+            check_interrupt(error)
+            facts["interrupted"] = True
     facts["budget"] = {
         "generations": state.generation if state else 0,
         "evaluations": state.evaluations if state else 0,
@@ -104,12 +124,14 @@ def plan(
         "phases": phases,
         "counts": dict(sorted(state.counts.items())) if state else {},
     }
-    facts["interrupted"] = finished.interrupted
     if state is not None:
         facts["history"] = {k: list(v) for k, v in vars(state.history).items()}
     if path is not None:
         met = contacts(path, problem)
         facts["metrics"] = {**metrics(path, problem), "touches": met.touches, "squeezes": met.squeezes}
+        if polyline is not None:
+            long = float(np.hypot(*np.diff(polyline, axis=0).T).sum())
+            facts["metrics"] |= {"polyline_length": long, "polyline_nodes": len(polyline)}
         row = problem.representation.encode([path])[0]
         facts["objectives"], facts["fitness"] = composed.fitness_of(row, problem)
         if problem.grid.origin is not None:
@@ -161,6 +183,20 @@ def _verified(problem: PathProblem, solution: Any, found: Any, reason: str) -> t
     if unrefined is not None:
         return unrefined, unrefined, f"the refined path {why}; its points were restored"
     return None, None, f"the best path of the search {why}"
+
+
+def _smoothed(
+    problem: PathProblem, chosen: Smoother, way: Path | Points, phases: Mapping[str, float]
+) -> tuple[Curve | None, str, dict[str, float]]:
+    """Return the curve along a way, why there is none, and the phases with what it took."""
+    began, loaded = time.perf_counter(), seconds_loading()
+    curve = chosen.smooth(way, problem)
+    fault = validate_curve(curve.points, problem)
+    loading = seconds_loading() - loaded
+    took = {"smoothing": time.perf_counter() - began - loading, "loading": phases["loading"] + loading}
+    if fault is None:
+        return curve, "", {**phases, **took}
+    return None, f"the curve of {chosen.name!r} {fault}; it was dropped", {**phases, **took}
 
 
 def _without_loading(phases: Mapping[str, float], loaded: list[float]) -> dict[str, float]:

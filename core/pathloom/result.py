@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.errors import PathloomError
+from pathloom.paths.curves import Curve
 from pathloom.paths.problem import PathProblem
 
 if TYPE_CHECKING:
@@ -38,6 +39,8 @@ class Result:
     """(k, 2), the path before the planner's refinement, which was checked as well."""
     world: NDArray[np.float64] | None = None
     """(k, 2), x and y in metres, where the map has a place in the world."""
+    curve: Curve | None = None
+    """A smooth way along the path, where one was asked for or the planner makes one."""
     metrics: Mapping[str, Any] = field(default_factory=dict)
     objectives: Mapping[str, float] = field(default_factory=dict)
     """Values of the planner's objectives, by label."""
@@ -106,6 +109,8 @@ class Result:
             for name, dtype in (("path", np.int64), ("unrefined", np.int64), ("world", np.float64)):
                 if values.get(name) is not None:
                     values[name] = np.array(values[name], dtype).reshape(-1, 2)
+            if values.get("curve") is not None:
+                values["curve"] = _curve(values["curve"])
             return cls(**values)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise PathloomError(f"no document of schema {SCHEMA!r}: {type(error).__name__}: {error}") from error
@@ -130,7 +135,8 @@ class Result:
             start=start,
             goal=goal,
             path=self.path,
-            unrefined=self.unrefined,
+            unrefined=self.unrefined if self._was_refined() else None,
+            curve=self.curve.points if self.curve is not None else None,
             history=self.history,
             title=f"{self.planner} on {self._map_title()}",
             caption=self._caption(),
@@ -141,6 +147,9 @@ class Result:
             save(figure, file)
         return figure
 
+    def _was_refined(self) -> bool:
+        return self.path is not None and self.unrefined is not None and not np.array_equal(self.path, self.unrefined)
+
     def _map_title(self) -> str:
         name = str(self.problem["map"]).replace("\\", "/").rpartition("/")[2]
         return name.encode("utf-8", "replace").decode()  # a file's name need not be text
@@ -150,6 +159,8 @@ class Result:
             return self.reason
         turns = self.metrics["turns"]
         parts = [f"length {self.length:.4f}", f"{turns} turn{'s' * (turns != 1)}", f"seed {self.seed}"]
+        if self.curve is not None:
+            parts.insert(1, f"curve {self.curve.length:.4f}")
         gap = (self.gap or {}).get("any_angle")
         if gap is not None:
             parts.append(f"{100 * gap:.2f} % above the any-angle optimum")
@@ -180,10 +191,19 @@ def versions() -> Mapping[str, str]:
     return {"pathloom": named.pop("pathloom"), "python": platform.python_version(), **named}
 
 
+def _curve(table: Mapping[str, Any]) -> Curve:
+    """Return the curve of a document, where a curvature without bound is null."""
+    curvature = table["max_curvature"]
+    points = np.array(table["points"], np.float64).reshape(-1, 2)
+    return Curve(**{**table, "points": points, "max_curvature": math.inf if curvature is None else curvature})
+
+
 def _plain(value: Any) -> Any:
     """Return JSON values only; what JSON cannot say (infinity) becomes null."""
     if isinstance(value, np.ndarray):
         return _plain(value.tolist())
+    if isinstance(value, Curve):
+        return _plain(vars(value))
     if isinstance(value, np.generic):
         return _plain(value.item())
     if isinstance(value, float):

@@ -12,6 +12,7 @@ from pathloom.kernel.evaluation import Objective, Terms
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import Entry, Registry
 from pathloom.paths.context import POLICIES
+from pathloom.paths.curves import Smoother
 from pathloom.paths.problem import CORNER_NAMES
 
 Schema = dict[str, Any]
@@ -50,6 +51,7 @@ def schema_of_config(registry: Registry) -> Schema:
                     {
                         "seed": {"type": "integer", "minimum": 0},
                         "time_limit": {"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"const": NONE}]},
+                        "smooth": {"anyOf": [{"$ref": f"#/$defs/{Smoother.kind}"}, {"const": NONE}]},
                     }
                 ),
             }

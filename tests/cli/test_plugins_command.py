@@ -58,12 +58,12 @@ def test_every_fixed_part_can_be_shown(cli, name) -> None:
 
 
 def test_show_of_a_bare_name_finds_the_part_and_of_a_plugin_all_its_parts(cli) -> None:
-    assert cli("plugins", "show", "common-node", "--json").document["name"] == "imga/common-node"
+    assert cli("plugins", "show", "d8-gene-median", "--json").document["name"] == "imga/d8-gene-median"
     assert len(cli("plugins", "show", "baselines", "--json").document) > 1
 
 
 def test_show_of_an_unknown_name_is_refused_with_the_one_probably_meant(refused) -> None:
-    assert "did you mean 'imga/common-node'?" in refused("plugins", "show", "comon-node")
+    assert "did you mean 'imga/d8-gene-median'?" in refused("plugins", "show", "d8-gene-medain")
 
 
 def test_cite_prints_bibtex_of_the_planner_named(cli) -> None:

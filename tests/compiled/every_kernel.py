@@ -8,6 +8,8 @@ import numpy as np
 
 from pathloom import PathProblem, compiled
 from pathloom.compiled import random
+from pathloom.paths.context import Context
+from pathloom.paths.lines import lines_between
 
 ROOM = """
 .....#...
@@ -44,6 +46,10 @@ def _oddities() -> dict[str, object]:
     serpentine[1::4, :-1] = serpentine[3::4, 1:] = True
     long = PathProblem(serpentine, start=(20, 0), goal=(0, 0)).context
     apart = np.array([[0, 1, 2], [0, 4, 2], [0, 2, -1]], np.int32)
+    fitness = np.array([0.25, 0.5, 0.375, 0.125, 0.375])
+    extremes = np.array([0.5, math.inf, 0.0])
+    in_halves = np.array([0, 1, 2], np.int64)
+    open_room = PathProblem(np.zeros((3, 3), bool)).context
     return {
         "no way": compiled.search.octile_path(split.moves, 3, 0, 2),
         "no straight way": compiled.search.any_angle_path(split.blocked, 3, 0, 2, 2, np.zeros(3), np.zeros(3), math.inf, 99),
@@ -58,6 +64,12 @@ def _oddities() -> dict[str, object]:
         ),
         "one cell": compiled.search.sample_from_trees(2, long.moves, 20, 7, 7, long.reachable_cells, 1.0, 2.0, words),
         "nothing in common": compiled.exchange.exchange_tails(apart, np.array([[0, 1]]), 9, False, words),
+        "nothing in common, beside each other": compiled.crossing.cross_where_shortest(
+            np.array([[0, 1, 2, 5, 8], [0, 3, 6, 7, 8]], np.int32), np.array([[0, 1]]), open_room.moves, 3, 2, True, words
+        ),
+        "nowhere to cross": compiled.crossing.cross_where_shortest(
+            apart, np.array([[0, 2], [1, 2]]), open_room.moves, 3, 2, True, words
+        ),
         "nothing to move": compiled.insertion.mutate_neighbour(
             apart, np.array([2]), np.zeros(9, np.uint8), np.zeros(9, np.uint8), 3, 3, 1, 1, 8, 9, True, False, words
         ),
@@ -66,7 +78,36 @@ def _oddities() -> dict[str, object]:
         "steep": compiled.measures.flagged_cells(np.array([[0, 7], [7, 0]], np.int32), np.ones(9, np.uint8), 3),
         "a point": compiled.segments.segments_free(split.blocked, 3, *np.array([[0, 1], [0, 1]], np.int32), 2),
         "nobody": compiled.identity.newcomers(nobody, nobody),
+        "falling": compiled.probabilities.falling(fitness, 0.65, 0.7, 0.9, math.exp(-0.5)),
+        "falling from infinity": compiled.probabilities.falling(extremes, 0.65, 0.7, 0.9, math.exp(0.5)),
+        "falling nowhere": compiled.probabilities.falling(np.full(10, 0.1), 0.65, 0.7, 0.9, 1.0),
+        "banded": compiled.probabilities.banded(fitness, 0.8, 0.2, 3.0),
+        "banded to infinity": compiled.probabilities.banded(extremes, 0.8, 0.2, 3.0),
+        "sinc": compiled.probabilities.sinc(fitness, 0.5, 0.8),
+        "sinc from infinity": compiled.probabilities.sinc(extremes, 0.5, 0.8),
+        "sinc below zero": compiled.probabilities.sinc(fitness - 0.5, 0.5, 0.8),
+        "rates of nobody": compiled.probabilities.sinc(np.empty(0), 0.5, 0.8),
+        "libraries too far": compiled.libraries.sample_from_libraries(
+            2, 3, 2, 1, True, 0, 8, np.array([4, 5], np.int32), in_halves, open_room.blocked, open_room.moves,
+            3, 3, 1, 1, 8, 16, True, False, words,
+        ),
+        "no library and no way": compiled.libraries.sample_from_libraries(
+            2, 3, 1, 0, False, 0, 2, nothing, in_halves[:1], *insertion, 8, 16, True, False, words
+        ),
+        "loops cut out": compiled.reshaping.without_loops(np.array([[0, 1, 2, 1, 4], [3, 4, 3, -1, -1]], np.int32), 9),
+        "steep, cell by cell": compiled.reshaping.cell_by_cell(np.array([[0, 7, 5], [7, 0, -1]], np.int32), 3),
+        "one child": compiled.exchange.splice(
+            apart, np.array([[0, 1]]), np.array([[1, 0]]), np.array([[True, False]]), 9, True
+        ),
         "few words": np.array([random.below(words, 6) for _ in range(9)]),
+        "an obstacle at the end": compiled.midpoints.segments_free(split.blocked, 3, *np.array([[0, 1], [1, 0]], np.int32), 1, 1),
+        "nothing to join": compiled.joining.exchange_at_position(
+            np.array([[0, 2, 4], [0, 2, 4], [0, 4, -1], [1, 1, 3]], np.int32), np.array([[0, 1], [2, 3]]),
+            open_room.blocked, open_room.moves, 3, 3, 1, 1, 4, 9, True, False, words,
+        ),
+        "no way to join": compiled.joining.exchange_at_position(
+            np.array([[0, 0, 2], [2, 2, 0]], np.int32), np.array([[0, 1]]), *insertion, 4, 9, True, False, words
+        ),
     }  # fmt: skip
 
 
@@ -88,7 +129,13 @@ def _results(problem: PathProblem) -> dict[str, object]:
     )
     pairs, chosen = np.array([[0, 1], [2, 3]]), np.array([3, 0])
     pairs_of_ends = np.stack([it.reachable_cells[:-1], it.reachable_cells[1:]])
+    free_cells = np.flatnonzero(it.blocked == 0).astype(np.int32)
+    far_apart = (np.repeat(free_cells, len(free_cells)), np.tile(free_cells, len(free_cells)))
     row, col = np.divmod(np.arange(it.blocked.size), it.cols)
+    lines = lines_between(it)
+    library = (np.concatenate(lines), np.cumsum([0, *map(len, lines)]))
+    shorter = compiled.segments.delete_points(trees, it.blocked, it.cols, it.policy, 0)
+    cuts, both = np.array([[2, 3], [4, 1]]), np.array([[True, True], [False, True]])
     before, after = (np.hypot(row - end // it.cols, col - end % it.cols) for end in (it.start, it.goal))
     return {
         "uniform": np.array([random.uniform(words) for _ in range(3)]),
@@ -103,6 +150,10 @@ def _results(problem: PathProblem) -> dict[str, object]:
         "inserted without a cell between": direct,
         "walks": compiled.walks.sample_by_walking(2, 500, it.start, it.goal, it.moves, it.cols, words),
         "exchanged": compiled.exchange.exchange_tails(trees, pairs, it.blocked.size, False, words),
+        "crossed where shortest": compiled.crossing.cross_where_shortest(
+            trees, pairs, it.moves, it.cols, 3, True, words
+        ),
+        "without detours": compiled.crossing.without_detours(printed[0], it.moves, it.cols),
         "mutated": compiled.insertion.mutate_neighbour(trees, chosen, *insertion, 8, 56, True, False, words),
         "one gene mutated": compiled.insertion.mutate_neighbour(trees, chosen, *insertion, 4, 0, True, True, words),
         "lengths": compiled.measures.lengths(trees, it.cols),
@@ -117,10 +168,193 @@ def _results(problem: PathProblem) -> dict[str, object]:
         "distinct": compiled.identity.distinct(np.concatenate((trees, trees[::-1]))),
         "newcomers": compiled.identity.newcomers(np.concatenate((trees, trees)), trees[:1]),
         "free": compiled.segments.segments_free(it.blocked, it.cols, *pairs_of_ends, it.policy),
-        "shortened": compiled.segments.delete_points(trees, it.blocked, it.cols, it.policy, 0),
+        "shortened": shorter,
         "clearances": compiled.measures.clearances(trees, it.blocked, it.distance, it.rows, it.cols),
         "flagged": compiled.measures.flagged_cells(trees, it.unsafe, it.cols),
+        "through libraries": compiled.libraries.sample_from_libraries(
+            3, 60, 3, 4, False, it.start, it.goal, *library, *insertion, 8, 56, True, False, words
+        ),
+        "through libraries with loops": compiled.libraries.sample_from_libraries(
+            3, 60, 1, 0, False, it.start, it.goal, *library, *insertion, 4, 56, True, True, words
+        ),
+        "without loops": compiled.reshaping.without_loops(printed[0], it.blocked.size),
+        "cell by cell": compiled.reshaping.cell_by_cell(shorter, it.cols),
+        **_trials(it, trees, pairs, chosen, words),
+        **_rejoined(it, trees, library),
+        **_grown(it, trees, words),
+        **_ants(it, trees, pairs, chosen),
+        **_smoothed(it),
+        **_decoded(it),
+        "spliced": compiled.exchange.splice(trees, pairs, cuts, both, it.blocked.size, False),
+        "spliced with loops": compiled.exchange.splice(trees, pairs, cuts, both, it.blocked.size, True),
+        "beside": compiled.measures.obstacles_beside(trees, it.beside, it.cols),
+        "free by midpoints": compiled.midpoints.segments_free(it.blocked, it.cols, *far_apart, *it.signs),
+        "joined at a position": compiled.joining.exchange_at_position(
+            trees, pairs, *insertion, 4, 56, True, False, words.copy()
+        ),
+        "joined with loops": compiled.joining.exchange_at_position(
+            printed[0], pairs[:1], *insertion, 8, 56, False, True, words.copy()
+        ),
     }
+
+
+def _rejoined(it: Context, trees: np.ndarray, library: tuple[np.ndarray, np.ndarray]) -> dict[str, object]:
+    """Return what distances say of segments and lines, and what becomes of paths and stretches that are drawn again."""
+    on, insertion = (it.blocked, it.rows, it.cols), (it.blocked, it.moves, it.rows, it.cols, *it.signs)
+    words = np.array([5, 2**50 + 1, 2**63 + 9, 11], np.uint64)
+    cells = np.flatnonzero(it.blocked == 0).astype(np.int32)
+    ends = (np.repeat(cells, len(cells)), np.tile(cells, len(cells)))
+    chosen, ends_only = np.arange(len(trees)), np.array([[it.start, it.goal, -1]], np.int32)
+    return {
+        "clear of segments": compiled.distances.clear(*on, *ends, 1.0, 2.0, False),
+        "clear of lines": compiled.distances.clear(*on, *ends, 1.0, 2.0, True),
+        "clear by two cells": compiled.distances.clear(*on, *ends, 2.0, 1.0, False),
+        "made anew between": compiled.rejoining.mutate_between(
+            trees, chosen, 1, 9, *insertion, 8, 56, True, False, words
+        ),
+        "made anew beyond": compiled.rejoining.mutate_between(
+            trees, chosen, 2, 2, *insertion, 4, 9, False, True, words
+        ),
+        "nothing to make anew": compiled.rejoining.mutate_between(
+            ends_only, chosen[:1], 1, 9, *insertion, 8, 56, True, False, words
+        ),
+        "in turn": compiled.rejoining.sample_through(
+            4, 30, 6, it.start, it.goal, *library, *insertion, 8, 56, True, False, words
+        ),
+        "in turn with loops": compiled.rejoining.sample_through(
+            3, 30, 1, it.start, it.goal, *library, *insertion, 4, 56, False, True, words
+        ),
+    }
+
+
+def _ants(it: Context, trees: np.ndarray, pairs: np.ndarray, chosen: np.ndarray) -> dict[str, object]:
+    """Return where ants and guided walks go, what becomes of pheromone, and of paths that are searched again."""
+    words = np.array([9, 2**41 + 7, 2**63 + 1, 3], np.uint64)
+    cells, amounts = it.blocked.size, np.array([0.5, 0.25, 0.125, 1.0])
+    even, rising = np.ones((cells, 8)), np.linspace(0.5, 2.0, 8 * cells).reshape(cells, 8)
+    wanted, nowhere = rising.copy(), np.zeros(cells, np.uint8)
+    wanted[:, 2] = math.inf  # to the east wherever there is a way
+    closed, marked = nowhere.copy(), np.zeros(cells, bool)
+    closed[it.reachable_cells[::7]] = marked[it.reachable_cells[::3]] = True
+    there, ends = (it.cols, it.start, it.goal), np.array([[it.start, it.goal, -1]], np.int32)
+    return {
+        "ants": compiled.ants.march(5, even, rising, 1.0, it.moves, nowhere, *there, True, words),
+        "ants that die": compiled.ants.march(5, rising, wanted, 0.5, it.moves, nowhere, *there, False, words),
+        "ants with closed cells": compiled.ants.march(5, rising, even, 2.0, it.moves, closed, *there, True, words),
+        "ants that nothing draws": compiled.ants.march(3, even, 0 * even, 1.0, it.moves, nowhere, *there, True, words),
+        "renewed": compiled.ants.renew(rising, 0.75, trees, amounts, it.moves, it.cols, False, 0.0, math.inf),
+        "renewed within limits": compiled.ants.renew(rising, 0.75, trees, amounts, it.moves, it.cols, False, 0.7, 1.5),
+        "renewed on cells": compiled.ants.renew(rising, 0.75, trees, amounts, it.moves, it.cols, True, 0.0, math.inf),
+        "laid": compiled.ants.lay(0.1, trees, amounts, cells, it.cols, True),
+        "laid in sums": compiled.ants.lay(0.1, trees, amounts, cells, it.cols, False),
+        "weakened": compiled.ants.weaken(rising, marked, it.moves, it.cols, 0.5),
+        "mean number of steps": np.array([compiled.ants.mean_steps(it.moves)]),
+        "no steps": np.array([compiled.ants.mean_steps(nowhere)]),
+        "reached": np.array([compiled.ants.reaches(it.moves, mask, *there) for mask in (nowhere, closed)]),
+        "guided": compiled.guided.sample_by_guided_walks(4, it.start, it.goal, 1.5, it.moves, it.cols, words),
+        "guided nowhere": compiled.guided.sample_by_guided_walks(2, it.start, it.goal, 1.5, nowhere, it.cols, words),
+        "searched again": compiled.guided.search_again(trees, chosen, 2.0, it.moves, it.cols, words),
+        "nothing to search": compiled.guided.search_again(ends, np.zeros(1, np.int64), 2.0, it.moves, it.cols, words),
+        "no way to search": compiled.guided.search_again(trees, chosen, 2.0, nowhere, it.cols, words),
+        "meeting": compiled.guided.meet(trees, pairs, cells),
+        "not meeting": compiled.guided.meet(np.stack((trees[0, :3], trees[0, 2:5])), np.array([[0, 1], [0, 0]]), cells),
+        "included angles": compiled.angles.included_angles(trees, it.cols),
+        "merged": compiled.merging.merge(trees, pairs, cells, it.cols),
+    }  # fmt: skip
+
+
+def _grown(it: Context, paths: np.ndarray, words: np.ndarray) -> dict[str, object]:
+    """Return what a tree in the open gives, and what is made of it."""
+    unit, samples = compiled.trees.UNIT, 700
+    nodes, parents = np.zeros((samples + 2, 2), np.int64), np.full(samples + 2, -1, np.int32)
+    nodes[0] = np.array(divmod(it.start, it.cols)) * unit
+    goal = [side * unit for side in divmod(it.goal, it.cols)]
+    how = (it.blocked, it.rows, it.cols, it.policy, *goal, 1.2 * unit, 1.7 * unit)
+    count, drawn, reached = compiled.trees.grow(*how, 0.1, False, nodes, parents, 1, samples, words)
+    branch = [count - 1 if reached < 0 else reached]
+    while parents[branch[-1]] >= 0:
+        branch.append(int(parents[branch[-1]]))
+    way = np.ascontiguousarray(nodes[branch[::-1]])
+    found = {
+        "grown": (nodes[:count].copy(), parents[:count].copy(), np.array([drawn, reached])),
+        "nearest": compiled.trees.nearest_nodes(nodes[:count].copy(), way + unit // 3, it.rows, it.cols),
+        "straightened": compiled.trees.straightened(way, it.blocked, it.cols, it.policy),
+        "over cells": compiled.trees.cells_of_points(way, it.blocked, it.cols, it.policy),
+        "paths straightened": compiled.trees.straightened_paths(paths, it.blocked, it.cols, it.policy),
+        "free in the open": compiled.trees.open_segments_free(it.blocked, it.cols, way[:-1], way[1:], it.policy),
+    }
+    few = compiled.trees.grow(*how, 0.5, True, nodes, parents, 1, 40, words)
+    return {**found, "grown by sample": (nodes[: few[0]].copy(), np.array(few))}
+
+
+def _smoothed(it: Context) -> dict[str, object]:
+    """Return what a spline around an obstacle gives, and one into it."""
+    around = np.array([[4.0, 0.0], [2.0, 0.0], [2.0, 2.0], [4.0, 2.0], [4.0, 4.0]])
+    found: dict[str, object] = {}
+    for name, control in (("around", around), ("into it", around + np.array([0.5, 0.7]))):
+        pieces = compiled.curves.spline_pieces(control, 3)
+        straight = np.zeros(len(pieces), np.bool_)
+        free, points, length, curvature = compiled.curves.sampled(
+            pieces, straight, it.blocked, it.rows, it.cols, it.policy, 1e-3
+        )
+        clearance = compiled.curves.clearance(points, it.blocked, it.distance, it.rows, it.cols)
+        found[f"spline {name}"] = (pieces, free, points, np.array([length, curvature, clearance]))
+    return found
+
+
+def _decoded(it: Context) -> dict[str, object]:
+    """Return the paths of some vectors, how far they lie in obstacles, and the cells along some curves."""
+    genes = np.array([[0.1, 0.9, 0.5, 1.0], [0.3, 0.3, 0.75, -0.1], [0.0, 0.2, 0.2, 1.2]])
+    lines = np.repeat(genes, 2, axis=1)[:, :7]
+    there = (it.start, it.goal, it.rows, it.cols)
+    through_points = compiled.decoding.through_points(genes, *there)
+    through_lines = compiled.decoding.through_lines(np.ascontiguousarray(lines), *there, False)
+    through_rows = compiled.decoding.through_lines(np.ascontiguousarray(lines[:, :3]), *there, True)
+    how = (it.blocked, it.cols, it.policy)
+    handles = np.array([[[4, 0], [2, 0], [1, 2], [2, 2]], [[2, 2], [3, 2], [0, 5], [0, 8]]], float)
+    straight = np.linspace((4.0, 0.0), (0.0, 4.0), 4)
+    curves = np.stack((handles, np.stack((straight, straight[::-1]))))
+    return {
+        "through points": through_points,
+        "through lines": through_lines,
+        "through rows": through_rows,
+        "no way to decode": compiled.decoding.through_points(genes, it.goal, it.goal, it.rows, it.cols),
+        "violated by points": compiled.decoding.violations(through_points, *how),
+        "violated by lines": compiled.decoding.violations(through_lines, *how),
+        "violated by rows": compiled.decoding.violations(through_rows, *how),
+        "points on a curve": compiled.decoding.sample_curve(handles, 0.25),
+        "cells along curves": compiled.decoding.along_curves(curves, it.cols, 0.25, it.distance, 1.5),
+    }
+
+
+def _trials(
+    it: Context, trees: np.ndarray, pairs: np.ndarray, chosen: np.ndarray, words: np.ndarray
+) -> dict[str, object]:
+    """Return what the linear trial and its operators give, in floating point and in integers."""
+    cells = np.flatnonzero(it.blocked == 0).astype(np.int32)
+    ends = (np.repeat(cells, len(cells)), np.tile(cells, len(cells)))
+    on, nowhere = (it.blocked, it.rows, it.cols), np.empty(0, np.int32)
+    short = np.array([[cells[0], -1], [cells[1], cells[2]]], np.int32)
+    limits = (400, 5, 0.5)
+    found: dict[str, object] = {
+        "greedy walks": compiled.walks.sample_by_greedy_walks(
+            3, *limits, True, it.start, it.goal, cells, it.moves, it.cols, words
+        ),
+        "greedy walks without loops": compiled.walks.sample_by_greedy_walks(
+            3, *limits, False, it.start, it.goal, cells, it.moves, it.cols, words
+        ),
+        "cuts": compiled.trial.draw_cuts(trees, pairs, words),
+        "nothing to cut": compiled.trial.draw_cuts(short, pairs[:1], words),
+        "genes": compiled.trial.draw_genes(trees, chosen, nowhere, *on, words),
+        "genes from anywhere": compiled.trial.draw_genes(trees, chosen, cells, *on, words),
+        "no gene": compiled.trial.draw_genes(short, pairs[0], nowhere, *on, words),
+    }
+    for name, tests, parts in (("trial", 1, 0), ("trial in integers", 1, 10), ("trial, verified", 3, 0)):
+        how = (*on, it.policy, tests, 0.1, parts)
+        found[f"free by {name}"] = compiled.trial.segments_free(*ends, *how)
+        found[f"joined by {name}"] = compiled.trial.cut_and_join(trees, pairs, *how, words)
+        found[f"replaced by {name}"] = compiled.trial.replace_genes(trees, chosen, nowhere, *how, words)
+    return found
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ def plain() -> dict[str, list]:
 
 def test_every_kernel_gives_the_same_as_plain_python(plain: dict[str, list]) -> None:
     compiled_here = json.loads(json.dumps(every_kernel.results()))
-    assert len(plain) == 85
+    assert plain.keys() == compiled_here.keys()
     assert [name for name, value in plain.items() if value != compiled_here[name]] == []
 
 

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from naive import Cell, Cells, examples
 
 from pathloom import PathProblem, compiled
+from pathloom.paths.context import Context
 from pathloom.paths.lines import lines_between
 
 shapes = st.tuples(st.integers(1, 8), st.integers(1, 8))
@@ -179,9 +180,9 @@ def test_a_child_may_be_longer_than_both_parents_or_shorter() -> None:
 @examples(100)
 def test_obstacles_beside_a_path_count_once_each(data, blocked: np.ndarray, padding: int) -> None:
     paths = data.draw(st.lists(naive.paths_on(blocked.shape, 6), min_size=1, max_size=4))
-    rows, cols = blocked.shape
-    flat = np.ascontiguousarray(blocked, np.uint8).ravel()
-    found = compiled.measures.obstacles_beside(naive.packed(paths, cols, padding), flat, rows, cols)
+    cols = blocked.shape[1]
+    around = Context(blocked, "allow", 0, 0).beside
+    found = compiled.measures.obstacles_beside(naive.packed(paths, cols, padding), around, cols)
     assert found.tolist() == [len(naive.obstacles_beside(blocked, path)) for path in paths]
 
 
@@ -230,3 +231,20 @@ def test_a_gap_that_needs_more_insertions_than_allowed_fails(col: int) -> None:
             it.blocked, it.moves, it.rows, it.cols, *it.signs, 8, cap, True, True, np.array([1, 2, 3, 4], np.uint64),
         )  # fmt: skip
         assert (len(found), failed) == ((1, 0) if cap >= needed else (0, 1))
+
+
+# Some paths in the places of others -------------------------------------------------------------
+
+
+@given(data=st.data())
+@examples(100)
+def test_paths_take_the_places_of_others_and_the_array_is_no_wider_than_needed(data) -> None:
+    several = st.lists(naive.paths_on((4, 5), 6), min_size=1, max_size=5)
+    paths, others = data.draw(several), data.draw(several)
+    places = data.draw(st.permutations(range(len(paths))))[: len(others)]
+    packed, rows = naive.packed(paths, 5, 3), naive.packed(others, 5, 1)[: len(places)]
+    found = compiled.reshaping.replaced(packed, np.array(places, np.int64), np.ascontiguousarray(rows))
+    expected = list(paths)
+    for place, other in zip(places, others, strict=False):
+        expected[place] = other
+    assert found.tolist() == naive.packed(expected, 5, 0).tolist()

@@ -107,7 +107,9 @@ def test_what_is_wrong_is_said_where_it_is_with_what_is_allowed_and_meant(regist
 
 
 def test_a_planner_says_which_slots_it_needs(registry):
-    with pytest.raises(pl.ConfigError, match="planner: 'evolution' needs 'sampling': a sampling"):
+    with pytest.raises(
+        pl.ConfigError, match="planner: 'evolution' needs 'objectives': a table of objectives with weights"
+    ):
         compose("evolution", registry=registry)
 
 

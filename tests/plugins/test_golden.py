@@ -3,6 +3,7 @@
 import pytest
 
 import pathloom as pl
+from pathloom.kernel.registry import default_registry
 
 GOLDEN = {  # length, turns, generations, evaluations
     ("imga", "iga-map1", "allow", 7): (13.790083, 4, 46, 4700),
@@ -10,6 +11,35 @@ GOLDEN = {  # length, turns, generations, evaluations
     ("imga", "random-20:75:s3", "no-squeeze", 1): (27.311295, 6, 50, 5100),
     ("ga-imga", "iga-map1", "allow", 7): (14.485281, 5, 50, 5100),
     ("ga-imga", "random-20:75:s3", "strict", 1): (32.970563, 22, 50, 5100),
+    ("agacd", "iga-map1", "allow", 7): (14.577728, 4, 300, 18060),
+    ("agacd", "random-20:75:s3", "strict", 1): (28.846446, 4, 300, 18060),
+    ("agacd-50", "blocks-50:20%", "allow", 0): (70.609902, 2, 500, 40080),
+    ("imaga", "iga-map1", "allow", 7): (13.790083, 4, 50, 20000),
+    ("imaga", "random-20:75:s3", "no-squeeze", 1): (27.313089, 6, 50, 17300),
+    ("iga", "iga-map1", "allow", 7): (13.790083, 4, 150, 90600),
+    ("iga", "random-20:75:s3", "strict", 1): (28.618376, 5, 150, 90600),
+    ("basic-ga", "random-20:75:s3", "allow", 0): (28.627417, 4, 50, 10200),
+    ("bga", "random-20:75:s3", "allow", 0): (28.627417, 4, 300, 18060),
+    ("bga-50", "random-20:75:s3", "allow", 0): (28.627417, 4, 500, 30060),
+    ("mpmga", "random-20:75:s3", "allow", 0): (28.627417, 5, 500, 32265),
+    ("mpga-textbook", "random-20:75:s3", "allow", 0): (28.627417, 4, 44, 18000),
+    ("ga-imaga", "random-20:75:s3", "allow", 0): (28.041631, 8, 50, 5100),
+    ("ga-iga", "random-20:75:s3", "allow", 0): (28.041631, 8, 150, 45300),
+    ("ga-lit37", "random-20:75:s3", "strict", 0): (30.970563, 17, 50, 5100),
+    ("aco", "random-20:75:s3", "allow", 0): (28.041631, 7, 100, 5050),
+    ("aco-ga", "random-20:75:s3", "allow", 0): (27.740892, 3, 200, 15100),
+    ("smartpath", "random-20:75:s3", "strict", 0): (30.970563, 14, 20, 6100),
+    ("pso", "random-20:75:s3", "allow", 0): (27.322384, 6, 500, 50100),
+    ("gwo", "random-20:75:s3", "allow", 0): (31.477604, 4, 500, 50100),
+    ("afsa", "random-20:75:s3", "allow", 0): (28.715951, 5, 100, 142377),
+    ("afsa-grid", "random-20:75:s3", "strict", 0): (30.970563, 16, 41, 20),
+    ("bezier-ga", "random-20:75:s3", "allow", 0): (38.0, 27, 100, 10100),
+    ("aco-hga-aco", "random-20:75:s3", "allow", 0): (28.041631, 7, 100, 4960),
+    ("ga-hga-aco", "random-20:75:s3", "strict", 0): (31.556349, 12, 100, 6056),
+    ("hga-aco", "random-20:75:s3", "allow", 0): (28.041631, 8, 201, 11102),
+    ("hga-aco", "random-20:75:s3", "strict", 0): (30.970563, 17, 201, 11106),
+    ("rrt", "random-20:75:s3", "strict", 0): (40.131185, 23, 1, 1),
+    ("s-rrt", "random-20:75:s3", "strict", 0): (28.738856, 5, 1, 1),
 }
 
 
@@ -25,3 +55,8 @@ def test_a_seed_gives_the_numbers_that_it_always_gave(run):
         result.budget["evaluations"],
     )
     assert found == GOLDEN[run]
+
+
+def test_every_planner_of_ours_has_a_golden_run():
+    ours = [e for e in default_registry().all_entries(pl.Planner) if e.source.ours and "/" in e.name]
+    assert {e.component.name for e in ours} == {planner for planner, *_ in GOLDEN}

@@ -43,6 +43,7 @@ PLOTS = (".png", ".svg", ".pdf", ".gif")
 @click.option("--set", "settings", multiple=True, metavar="SLOT=COMPONENT|SLOT.FIELD=VALUE", help="Change one part.")
 @click.option("--time-limit", type=float, metavar="SECONDS", help="Answer with the best so far after this time.")
 @click.option("--optimum", is_flag=True, help="Compute the exact optima and the gaps to them.")
+@click.option("--smooth", metavar="NAME", help="Also make a smooth curve of the path: b-spline or cubic-bezier.")
 @click.option("--freeze", is_flag=True, help="Print the complete config instead of planning.")
 @click.option("--plot", metavar="FILE", help="Draw map, path and convergence: png, svg, pdf; gif shows the evolution.")
 @click.option("--dark", is_flag=True, help="Draw on a dark background.")
@@ -70,7 +71,7 @@ def command(ctx: click.Context, /, **options: Any) -> None:
         if facts is not None:
             facts["scenario"].check(facts["case"], problem.grid)
         name = config.problem.map
-        table = frozen(problem, name, planner, config.seed, config.time_limit)
+        table = frozen(problem, name, planner, config.seed, config.time_limit, config.smooth)
         table["problem"] |= {"unknown": config.problem.unknown}
         if config.problem.threshold is not None:
             table["problem"]["threshold"] = config.problem.threshold
@@ -104,6 +105,7 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
             seed=config.seed,
             time_limit=config.time_limit,
             optimum=options["optimum"],
+            smooth=config.smooth,
             map_name=config.problem.map,
             watch=watch,
         )
@@ -123,7 +125,7 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
 
 
 def _config(options: dict[str, Any]) -> tuple["Config", dict[str, Any] | None]:
-    from pathloom.config import Config, parse_place, read_config
+    from pathloom.config import Config, parse_place, read_config, smoother
     from pathloom.kernel.run import check_seed
 
     config = read_config(options["config"]) if options["config"] else Config()
@@ -169,6 +171,8 @@ def _config(options: dict[str, Any]) -> tuple["Config", dict[str, Any] | None]:
         config = replace(config, seed=options["seed"])
     if options["time_limit"] is not None:
         config = replace(config, time_limit=options["time_limit"])
+    if options["smooth"] is not None:
+        config = replace(config, smooth=smoother(_value(options["smooth"]), "--smooth"))
     check_seed(config.seed)
     if config.time_limit is not None and not config.time_limit > 0:
         raise ConfigError(f"--time-limit: found {config.time_limit!r}, allowed seconds above 0")

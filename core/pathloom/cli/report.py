@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
@@ -52,6 +53,11 @@ def _rows(result: Result) -> Iterator[tuple[str, str]]:
         clearance = "no obstacles" if found["min_clearance"] is None else f"{found['min_clearance']:.3f} cells"
         contacts = f"{found['touches']} touches, {found['squeezes']} squeezes"
         yield "clearance", f"{clearance}; {found['unsafe_nodes']} unsafe nodes, {contacts}"
+    if result.curve is not None:
+        curve = result.curve
+        tightest = "with corners" if math.isinf(curve.max_curvature) else f"least radius {_radius(curve.max_curvature)}"
+        near = "no obstacles" if curve.min_clearance is None else f"clearance {curve.min_clearance:.3f} cells"
+        yield "curve", f"{curve.length:.4f} cells, {tightest}, {near}"
     if result.optimum is not None:
         gaps = result.gap or {}
         for name, title in (("any_angle", "any-angle optimum"), ("grid", "octile optimum")):
@@ -76,6 +82,11 @@ def _rows(result: Result) -> Iterator[tuple[str, str]]:
             yield "counted", counted
 
 
+def _radius(curvature: float) -> str:
+    """Return a radius of curvature in words."""
+    return f"{1.0 / curvature:.3f} cells" if curvature else "infinite"
+
+
 def notes(result: Result) -> Iterator[str]:
     """Yield what a reader of the numbers ought to know."""
     if result.found and result.reason:
@@ -84,6 +95,8 @@ def notes(result: Result) -> Iterator[str]:
         yield f"no path: {result.reason}{_advice(result)}"
     elif result.interrupted:
         yield "interrupted; this is the best so far"
+    if result.curve is not None and result.curve.fallback:
+        yield "the curve keeps to the straight segments where it would collide, with corners there"
     scenario = result.problem.get("scenario")
     grid = (result.optimum or {}).get("grid")
     same = not result.problem["radius"]  # a scenario's robot is a point
@@ -96,8 +109,8 @@ def notes(result: Result) -> Iterator[str]:
 
 def _advice(result: Result) -> str:
     """Return what may help where the planner's own sampling found nothing."""
-    sampling = result.config["planner"].get("sampling", {})
-    if result.budget.get("evaluations") == 0 and not result.interrupted and sampling.get("use") != "perturbed-trees":
+    sampling = result.config["planner"].get("sampling", {}).get("use", "perturbed-trees")
+    if result.budget.get("evaluations") == 0 and not result.interrupted and sampling != "perturbed-trees":
         return "; try --set sampling=perturbed-trees"
     return ""
 
@@ -145,8 +158,12 @@ def write(result: Result, options: dict[str, Any], frames: list[Any]) -> list[st
 
 
 def export(result: Result, suffix: str) -> str:
-    """Return the path as CSV (cells, and metres where known) or as the JSON of a ``nav_msgs/Path``."""
-    path: Any = result.path if result.path is not None else []
+    """Return the path as CSV (cells, and metres where known) or as the JSON of a ``nav_msgs/Path``.
+
+    Both stay the path's where there is a curve; the JSON then holds a second
+    ``nav_msgs/Path`` of the curve's points, ``curve``.
+    """
+    path: Any = result.path if result.path is not None else np.empty((0, 2))
     world = result.world
     if suffix == ".csv":
         head = "row,col" + (",x,y" if world is not None else "")
@@ -155,21 +172,25 @@ def export(result: Result, suffix: str) -> str:
             for i, (r, c) in enumerate(path)
         ]
         return "\n".join([head, *lines]) + "\n"
-    return json.dumps(_nav_path(result), indent=1) + "\n"
+    message = _nav_path(_metres(result, path) if world is None else world)
+    if result.curve is not None:
+        message["curve"] = _nav_path(_metres(result, result.curve.points))
+    return json.dumps(message, indent=1) + "\n"
 
 
-def _nav_path(result: Result) -> dict[str, Any]:
-    """Return a ``nav_msgs/Path``: poses at the way-points, each looking along the way that leaves it.
+def _metres(result: Result, points: Any) -> Any:
+    """Return x and y of points (n, 2); without a place in the world cells are metres from the lower-left corner."""
+    problem = result.path_problem
+    if problem is not None and problem.grid.origin is not None:
+        return problem.grid.world(points)
+    return points[:, ::-1] * (1.0, -1.0) + (0.5, result.problem["height"] - 0.5)
 
-    A map without a place in the world counts its cells as metres from the lower-left corner.
-    """
-    points = result.world
-    if points is None and result.path is not None:
-        high = result.problem["height"]
-        points = result.path[:, ::-1] * (1.0, -1.0) + (0.5, high - 0.5)
+
+def _nav_path(points: Any) -> dict[str, Any]:
+    """Return a ``nav_msgs/Path``: poses at the way-points (n, 2), each looking along the way that leaves it."""
     header = {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": "map"}
     poses: list[dict[str, Any]] = []
-    places = [] if points is None else points.tolist()
+    places = points.tolist()
     yaw = 0.0
     for i, (x, y) in enumerate(places):
         if i + 1 < len(places):

@@ -14,27 +14,53 @@ from typing import TYPE_CHECKING
 from pathloom.compiled.jit import loading
 
 if TYPE_CHECKING:
+    from pathloom.compiled import angles as angles
+    from pathloom.compiled import ants as ants
+    from pathloom.compiled import crossing as crossing
+    from pathloom.compiled import curves as curves
+    from pathloom.compiled import decoding as decoding
+    from pathloom.compiled import distances as distances
     from pathloom.compiled import exchange as exchange
+    from pathloom.compiled import guided as guided
     from pathloom.compiled import identity as identity
     from pathloom.compiled import insertion as insertion
+    from pathloom.compiled import joining as joining
     from pathloom.compiled import libraries as libraries
     from pathloom.compiled import measures as measures
+    from pathloom.compiled import merging as merging
+    from pathloom.compiled import midpoints as midpoints
     from pathloom.compiled import probabilities as probabilities
+    from pathloom.compiled import rejoining as rejoining
     from pathloom.compiled import reshaping as reshaping
     from pathloom.compiled import search as search
     from pathloom.compiled import segments as segments
+    from pathloom.compiled import trees as trees
+    from pathloom.compiled import trial as trial
     from pathloom.compiled import walks as walks
 
 FAMILIES = (
+    "angles",
+    "ants",
+    "crossing",
+    "curves",
+    "decoding",
+    "distances",
     "exchange",
+    "guided",
     "identity",
     "insertion",
+    "joining",
     "libraries",
     "measures",
+    "merging",
+    "midpoints",
     "probabilities",
+    "rejoining",
     "reshaping",
     "search",
     "segments",
+    "trees",
+    "trial",
     "walks",
 )
 

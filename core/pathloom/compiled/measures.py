@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from pathloom.compiled.directions import DC, DR
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.rows import length_of, row_of
 
@@ -49,26 +50,30 @@ def sum_over_nodes(population, table, skip_first, skip_last):
     return found
 
 
-@kernel("f8[::1](i4[:, ::1], u1[::1], i8, i8)")
-def obstacles_beside(population, blocked, rows, cols):
-    """Count for each path the distinct obstacles among the 8 neighbours of its nodes, both ends included."""
-    per_row = 1.0 / cols
+@kernel("f8[::1](i4[:, ::1], u1[::1], i8)")
+def obstacles_beside(population, beside, cols):
+    """Count for each path the distinct obstacles among the 8 neighbours of its nodes, both ends included.
+
+    ``beside``: bit d is set where the neighbour in direction d is an obstacle.
+    """
     found = np.zeros(population.shape[0])
-    seen = np.zeros(blocked.shape[0], np.int32)
+    seen = np.zeros(beside.shape[0], np.int32)
     for k in range(population.shape[0]):
         total = 0
         for i in range(population.shape[1]):
             cell = population[k, i]
             if cell < 0:
                 break
-            r = row_of(cell, per_row)
-            c = cell - r * cols
-            for rr in range(max(r - 1, 0), min(r + 2, rows)):
-                for cc in range(max(c - 1, 0), min(c + 2, cols)):
-                    beside = rr * cols + cc
-                    if blocked[beside] and beside != cell and seen[beside] != k + 1:
-                        seen[beside] = k + 1
+            bits = np.int64(beside[cell])
+            d = 0
+            while bits > 0:
+                if bits & 1:
+                    obstacle = cell + DR[d] * cols + DC[d]
+                    if seen[obstacle] != k + 1:
+                        seen[obstacle] = k + 1
                         total += 1
+                bits >>= 1
+                d += 1
         found[k] = total
     return found
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pathloom.compiled.jit import kernel
-from pathloom.compiled.rows import blank, copy, length_of, remove_loops, row_of, unpack, with_room
+from pathloom.compiled.rows import blank, copy, length_of, remove_loops, row_of, unpack, widest, with_room
 
 
 @kernel("i4[:, ::1](i4[:, ::1], i8)")
@@ -24,6 +24,26 @@ def without_loops(population, cells):
     for k in range(n):
         copy(trimmed[k], 0, out[k], 0, most)
     return trimmed
+
+
+@kernel("i4[:, ::1](i4[:, ::1], i8[::1], i4[:, ::1])")
+def replaced(population, places, rows):
+    """Return the population with other paths in some of its places, no wider than the longest of them all."""
+    n = population.shape[0]
+    instead = np.full(n, np.int64(-1))
+    for q in range(places.shape[0]):
+        instead[places[q]] = q
+    most = widest(rows)
+    for k in range(n):
+        if instead[k] < 0:
+            most = max(most, length_of(population[k]))
+    out = blank(n, most)
+    for k in range(n):
+        if instead[k] < 0:
+            copy(out[k], 0, population[k], 0, length_of(population[k]))
+        else:
+            copy(out[k], 0, rows[instead[k]], 0, length_of(rows[instead[k]]))
+    return out
 
 
 @kernel("i4[:, ::1](i4[:, ::1], i8)")

@@ -42,6 +42,7 @@ def path_figure(
     goal: Cell,
     path: ArrayLike | None = None,
     unrefined: ArrayLike | None = None,
+    curve: ArrayLike | None = None,
     optimum: ArrayLike | None = None,
     history: Mapping[str, Any] | None = None,
     title: str = "",
@@ -62,6 +63,8 @@ def path_figure(
         (row, column).
     path, unrefined, optimum
         (k, 2) cells: the path, the path before its refinement, an exact reference.
+    curve
+        (m, 2) points of a smooth curve along the path, in cells.
     history
         ``evaluations``, ``best``, ``generation_best``, ``mean`` and ``diversity``,
         one value for each generation; any of them may be missing. Drawn from two
@@ -84,7 +87,7 @@ def path_figure(
 
     axes = figure.add_axes((0.1, 0.1, 0.8, 0.8), label="map")
     handles = scene.draw_map(axes, None if closed is None else np.asarray(closed, bool))
-    handles += scene.draw_paths(axes, path, unrefined, optimum)
+    handles += scene.draw_paths(axes, path, unrefined, curve, optimum)
     curves = Curves.read(history or {})
     panels: list[Axes] = []
     if curves is not None:
@@ -161,9 +164,14 @@ class Scene:
         return handles
 
     def draw_paths(
-        self, axes: "Axes", path: ArrayLike | None, unrefined: ArrayLike | None, optimum: ArrayLike | None
+        self,
+        axes: "Axes",
+        path: ArrayLike | None,
+        unrefined: ArrayLike | None,
+        curve: ArrayLike | None,
+        optimum: ArrayLike | None,
     ) -> "list[Artist]":
-        """Draw up to three paths and return their entries for the legend."""
+        """Draw up to four paths and return their entries for the legend."""
         from matplotlib.lines import Line2D
         from matplotlib.patheffects import Normal, Stroke
 
@@ -181,8 +189,15 @@ class Scene:
             handles.append(line)
 
         nodes = 0 if path is None else len(np.atleast_1d(path))
+        halo = 1.2
+        if curve is not None:
+            add(
+                curve, "curve", halo, color=colours.goal, linewidth=1.2 * thick, linestyle="-", zorder=2.5,
+                solid_joinstyle="round", solid_capstyle="round",
+            )  # fmt: skip
+            thick, halo = 0.5 * thick, 0.0  # the path lies on the curve, thin enough to let it be seen
         add(
-            path, "path", 1.2, color=colours.path, linewidth=thick, linestyle="-", zorder=3,
+            path, "path", halo, color=colours.path, linewidth=thick, linestyle="-", zorder=3,
             solid_joinstyle="round", solid_capstyle="round", marker="o" if nodes <= NODED else "",
             markersize=thick + 2.6, markerfacecolor=colours.free, markeredgecolor=colours.path,
             markeredgewidth=1.3,

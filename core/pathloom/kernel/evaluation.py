@@ -1,5 +1,6 @@
 """Objectives, and how a planner makes one fitness of several of them."""
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -126,7 +127,7 @@ class WeightedReciprocals(Fitness):
 
     def combine(self, values: Floats, weights: Floats) -> Floats:
         values = np.maximum(values, self._floors_of(values.shape[1]))
-        if min(self.floors) > 0:
+        if min(self.floors) > 1e-150:  # no reciprocal overflows
             return np.asarray(np.reciprocal(values) @ weights)
         with np.errstate(divide="ignore", invalid="ignore"):
             parts = weights / (values + 0.0)  # -0.0 becomes 0.0
@@ -152,7 +153,7 @@ def measure(objectives: Sequence[Objective], population: Population, problem: Pr
                 f"objective {objective.name!r}: wanted shape ({len(population)},), one value a row; got {found.shape}"
             )
         values[:, column] = found
-    if np.isnan(values).any():
+    if math.isnan(values.sum()) and np.isnan(values).any():  # the sum is quicker; of two infinities it may be NaN too
         row, column = (int(i) for i in np.argwhere(np.isnan(values))[0])
         decoded = problem.representation.decode(population[row])
         raise PluginError(f"objective {objectives[column].name!r}: returned NaN for {decoded!r}".replace("\n", " "))

@@ -10,17 +10,15 @@ component of kind *control* or *migration*, never a branch in this loop.
 import time
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pathloom.errors import ConfigError
 from pathloom.kernel.archive import Archive
-from pathloom.kernel.component import Component, Count, members
-from pathloom.kernel.counting import count, counting, total
-from pathloom.kernel.evaluation import Fitness, Floats, ReciprocalOfSum, Terms, Weighting, measure
+from pathloom.kernel.component import Component, Count
+from pathloom.kernel.counting import counting
+from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.operators import (
     Crossover,
     Indices,
@@ -32,11 +30,12 @@ from pathloom.kernel.operators import (
     Selection,
     Survival,
 )
-from pathloom.kernel.planner import Outcome, Planner
+from pathloom.kernel.planner import Outcome
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
+from pathloom.kernel.search import Search
 from pathloom.kernel.selection import RandomPairs, Roulette
-from pathloom.kernel.state import Deme, Individual, State, generator
+from pathloom.kernel.state import Deme, State, generator
 from pathloom.kernel.survival import Replacement
 
 
@@ -68,7 +67,7 @@ class Generational(Control):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Evolution(Planner):
+class Evolution(Search):
     """The generic evolutionary planner."""
 
     name: ClassVar[str] = "evolution"
@@ -77,12 +76,6 @@ class Evolution(Planner):
     """Number of individuals in each population."""
     sampling: Sampling
     """Makes the first population."""
-    objectives: Terms
-    """What is minimised, with weights."""
-    weighting: Weighting | None = None
-    """Rule for the weights, in place of the numbers beside the objectives."""
-    fitness: Fitness = ReciprocalOfSum()
-    """Makes one number of the objectives' values."""
     selection: Selection = Roulette()
     """Chooses the parents."""
     pairing: Pairing = RandomPairs()
@@ -107,23 +100,9 @@ class Evolution(Planner):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._check_requirements()
-        if self.weighting is not None:
-            self.weighting.check(self.objectives)
-
-    @property
-    def terms(self) -> Terms:
-        return self.objectives
-
-    def weights(self, problem: Problem) -> Floats:
-        """Return the weights (m,) of the objectives."""
-        return self._weights if self.weighting is None else self.weighting.weights(self.objectives, problem)
-
-    @cached_property
-    def _weights(self) -> Floats:
-        return self.objectives.weights
 
     def start(self, problem: Problem, rng: np.random.Generator) -> State:
-        self._check_representation(problem)
+        self.check_representation(problem)
         began = time.perf_counter()
         with counting() as counts:
             demes = []
@@ -177,18 +156,6 @@ class Evolution(Planner):
             population = self.repair.apply(population, problem, rng)
         return population
 
-    def evaluate(self, population: Population, problem: Problem) -> Deme:
-        """Return the population with its values and fitness, and count the evaluations.
-
-        Each distinct individual is measured once; all count.
-        """
-        count("evaluations", len(population))
-        distinct, which = problem.representation.distinct(population)
-        objectives = [term.objective for term in self.objectives]
-        values = measure(objectives, population[distinct], problem)
-        fitness = self.fitness.combine(values, self.weights(problem))
-        return Deme(population, values[which], fitness[which], distinct)
-
     @staticmethod
     def _pair_rates(crossover: Crossover, pairs: Indices, fitness: Floats, progress: float) -> Floats | float:
         """Return how likely each pair is to be crossed: the rate of its fitter parent."""
@@ -198,44 +165,19 @@ class Evolution(Planner):
         fitter = np.where(fitness[first] >= fitness[second], first, second)
         return np.asarray(crossover.rates(fitness, progress)[fitter])
 
-    def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
-        deme = self.evaluate(row[np.newaxis], problem)
-        return dict(zip(self.objectives.labels, deme.values[0].tolist(), strict=True)), float(deme.fitness[0])
-
     def _reached(
         self, before: State, demes: tuple[Deme, ...], generation: int, rng: np.random.Generator,
         counts: dict[str, int], began: float,
     ) -> State:  # fmt: skip
-        problem, best, answer, history = before.problem, before.best, before.answer, before.history
-        top = mean = diversity = 0.0
+        best, answer = before.best, before.answer
         for index, deme in enumerate(demes):
-            if len(deme) == 0:
-                continue
-            row = deme.best()
-            fitness = float(deme.fitness[row])
-            if best is None or fitness > best.fitness:
-                best = Individual(deme.population[row], deme.values[row], fitness, generation)
-            distinct = self._distinct(deme, problem)
-            if index == 0:
-                top, mean, diversity = fitness, float(deme.fitness.sum()) / len(deme), len(distinct) / len(deme)
-            if self.archive is not None:
-                new = self._newcomers(deme, before.demes[index] if before.demes else None, problem)
-                answer = self.archive.update(answer, deme, new, generation, problem, self.refinement, rng)
-        evaluations = before.evaluations + counts.pop("evaluations", 0)
-        if best is not None and len(demes[0]):
-            history = history.extended(evaluations, best.fitness, top, mean, diversity)
-        return State(
-            problem,
-            rng.bit_generator.state,
-            generation,
-            evaluations,
-            demes,
-            best,
-            best if self.archive is None else answer,
-            history,
-            total(before.counts, counts) if counts else before.counts,
-            before.seconds + time.perf_counter() - began,
-        )
+            best = self.fittest(best, deme, generation)
+            if self.archive is not None and len(deme):
+                new = self._newcomers(deme, before.demes[index] if before.demes else None, before.problem)
+                answer = self.archive.update(answer, deme, new, generation, before.problem, self.refinement, rng)
+        state = self.recorded(before, demes[0], best, generation, rng, counts, began)
+        state |= {"demes": demes, "answer": best if self.archive is None else answer}
+        return State(**state)
 
     @staticmethod
     def _distinct(deme: Deme, problem: Problem) -> Indices:
@@ -261,11 +203,3 @@ class Evolution(Planner):
                     f"{component.kind} {component.name!r} needs {', '.join(sorted(missing))} individuals, "
                     f"which {', '.join(map(repr, lost))} does not leave"
                 )
-
-    def _check_representation(self, problem: Problem) -> None:
-        given = problem.representation.name
-        parts: list[Component] = [part for _, part in members(self)] + list(self.objectives.objectives())
-        for part in parts:
-            parts += [inner for _, inner in members(part)]  # the list grows by what stands in the slots of its members
-            if part.works_on and part.works_on != given:
-                raise ConfigError(f"{part.kind} {part.name!r} works on {part.works_on!r}; the problem has {given!r}")

@@ -59,12 +59,7 @@ class CellPaths(Representation):
         return both
 
     def replaced(self, population: Population, places: NDArray[np.intp], rows: Population) -> Population:
-        width = rows.shape[1]
-        out = np.full((len(population), max(population.shape[1], width)), -1, np.int32)
-        out[:, : population.shape[1]] = population
-        out[places, :width] = rows
-        out[places, width:] = -1
-        return out
+        return np.asarray(compiled.reshaping.replaced(population, places, np.ascontiguousarray(rows)))
 
     def distinct(self, population: Population) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         return compiled.identity.distinct(population)  # type: ignore[no-any-return]

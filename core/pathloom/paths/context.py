@@ -118,6 +118,16 @@ class Context:
         return self.neighbours(8)
 
     @cached_property
+    def beside(self) -> Bytes:
+        """Bit d: the neighbour in direction d is an obstacle."""
+        blocked = np.pad(self.occupied, 1)
+        rows, cols = self.occupied.shape
+        bits = np.zeros((rows, cols), np.uint8)
+        for d, (dr, dc) in enumerate(STEPS):
+            bits |= blocked[1 + dr : 1 + dr + rows, 1 + dc : 1 + dc + cols].astype(np.uint8) << np.uint8(d)
+        return _flat(bits)
+
+    @cached_property
     def unsafe(self) -> Bytes:
         """1 for cells with an obstacle among their 8 neighbours."""
         return _flat(self.obstacles_near > 0)

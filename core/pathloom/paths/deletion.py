@@ -62,8 +62,9 @@ def _deleted(population: Population, problem: PathProblem, collision: Collision)
             a, b = (
                 cells_of(ids, problem.context.cols) for ids in (kept[inside, at[inside]], population[inside, i + 1])
             )
-            seen = inside[collision.segments_free(a, b, problem)]
-            here = np.setdiff1d(here, seen, assume_unique=True)
+            stays = counts > i
+            stays[inside[collision.segments_free(a, b, problem)]] = False
+            here = np.flatnonzero(stays)
         at[here] += 1
         kept[here, at[here]] = population[here, i]
     return np.ascontiguousarray(kept[:, : max(1, int(at.max(initial=0)) + 1)])

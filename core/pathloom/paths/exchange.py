@@ -1,4 +1,6 @@
-"""Exchange of tails at a cell that two paths have in common."""
+"""Exchange of tails between two paths: at a cell that they have in common, or at a position."""
+
+from typing import Literal
 
 import numpy as np
 
@@ -27,4 +29,30 @@ def exchange_tails(
         population, np.ascontiguousarray(pairs), it.blocked.size, loops, rng.bit_generator.random_raw(4)
     )
     count("crossover without a common cell", failed)
+    return children  # type: ignore[no-any-return]
+
+
+def exchange_at_position(
+    population: Population,
+    pairs: Indices,
+    problem: PathProblem,
+    rng: np.random.Generator,
+    *,
+    insertions: int,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Let each pair (k, 2) exchange what follows a random position, the same in both and inside the shorter one.
+
+    The two parts of a child are joined by median insertion; ``insertions``,
+    ``reach``, ``guarded`` and ``loops`` are those of `insertion.mutate_neighbour`.
+    Where they cannot be joined the parent stays, and is counted.
+    """
+    it = problem.context
+    children, failed = compiled.joining.exchange_at_position(
+        population, np.ascontiguousarray(pairs), it.blocked, it.moves, it.rows, it.cols, *it.signs, reach,
+        insertions if insertions >= 0 else 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("crossover failed", failed)
     return children  # type: ignore[no-any-return]

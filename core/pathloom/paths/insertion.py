@@ -134,3 +134,74 @@ def mutate_neighbour(
     )  # fmt: skip
     count("mutation failed", failed)
     return changed  # type: ignore[no-any-return]
+
+
+def mutate_between(
+    population: Population,
+    chosen: Indices,
+    problem: PathProblem,
+    rng: np.random.Generator,
+    *,
+    beyond: bool,
+    tries: int,
+    insertions: int,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Draw two cells of each chosen path and make what lies between them anew, by median insertion.
+
+    Parameters
+    ----------
+    beyond
+        Give up the two drawn cells as well: both are interior ones, and those
+        next to them are joined. Otherwise the two stay, and at least one cell
+        lies between them.
+    tries
+        How many pairs are drawn for a path until one can be joined. A path
+        without one stays, as does one without an interior, and is counted.
+    insertions, reach, guarded, loops
+        As for `sample_by_insertion`.
+    """
+    it = problem.context
+    changed, failed = compiled.rejoining.mutate_between(
+        population, chosen, 2 if beyond else 1, tries, it.blocked, it.moves, it.rows, it.cols, *it.signs,
+        reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("mutation failed", failed)
+    return changed  # type: ignore[no-any-return]
+
+
+def sample_in_turn(
+    problem: PathProblem,
+    libraries: Sequence[Cells],
+    n: int,
+    rng: np.random.Generator,
+    *,
+    tries: int,
+    redraws: int,
+    insertions: int,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Draw n paths as `sample_through` does, but join each cell to the one before as soon as it is drawn.
+
+    A cell that cannot be joined is drawn again, up to ``redraws`` draws in all,
+    where `sample_through` begins the whole path again: a path through many
+    libraries has a chance even where a join often fails. What is drawn again is
+    counted.
+    """
+    it = problem.context
+    if it.start == it.goal:
+        return np.full((n, 1), it.start, np.int32)
+    filled = [np.asarray(cells, np.int32) for cells in libraries if len(cells)]
+    begin = np.cumsum([0, *map(len, filled)])
+    cells = np.concatenate(filled) if filled else np.empty(0, np.int32)
+    found, failed, again = compiled.rejoining.sample_through(
+        n, tries, redraws, it.start, it.goal, cells, begin, it.blocked, it.moves, it.rows, it.cols, *it.signs,
+        reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("samples failed", failed)
+    count("cells drawn again", again)
+    return _repeated(found, n)

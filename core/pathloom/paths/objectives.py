@@ -51,7 +51,7 @@ class ObstaclesBeside(Objective):
         it = path_problem(problem).context
         if self.of == "cells":
             population = compiled.reshaping.cell_by_cell(population, it.cols)
-        found = compiled.measures.obstacles_beside(population, it.blocked, it.rows, it.cols)
+        found = compiled.measures.obstacles_beside(population, it.beside, it.cols)
         return np.asarray(self.base + self.each * found)
 
 

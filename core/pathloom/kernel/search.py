@@ -1,0 +1,124 @@
+"""Search: what planners have in common that judge individuals by objectives and remember the best one."""
+
+import time
+from abc import ABC
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pathloom.errors import ConfigError
+from pathloom.kernel.component import Component, members
+from pathloom.kernel.counting import count, total
+from pathloom.kernel.evaluation import Fitness, Floats, ReciprocalOfSum, Terms, Weighting, measure
+from pathloom.kernel.planner import Planner
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+from pathloom.kernel.state import Deme, Individual, State
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search(Planner, ABC):
+    """A planner that makes one fitness of several objectives, whatever makes its individuals."""
+
+    objectives: Terms
+    """What is minimised, with weights."""
+    weighting: Weighting | None = None
+    """Rule for the weights, in place of the numbers beside the objectives."""
+    fitness: Fitness = ReciprocalOfSum()
+    """Makes one number of the objectives' values."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.weighting is not None:
+            self.weighting.check(self.objectives)
+
+    @property
+    def terms(self) -> Terms:
+        return self.objectives
+
+    def weights(self, problem: Problem) -> Floats:
+        """Return the weights (m,) of the objectives."""
+        return self._weights if self.weighting is None else self.weighting.weights(self.objectives, problem)
+
+    @cached_property
+    def _weights(self) -> Floats:
+        return self.objectives.weights
+
+    def evaluate(self, population: Population, problem: Problem) -> Deme:
+        """Return the population with its values and fitness, and count the evaluations.
+
+        Each distinct individual is measured once; all count.
+        """
+        count("evaluations", len(population))
+        distinct, which = problem.representation.distinct(population)
+        objectives = [term.objective for term in self.objectives]
+        values = measure(objectives, population[distinct], problem)
+        fitness = self.fitness.combine(values, self.weights(problem))
+        return Deme(population, values[which], fitness[which], distinct)
+
+    def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
+        deme = self.evaluate(row[np.newaxis], problem)
+        return dict(zip(self.objectives.labels, deme.values[0].tolist(), strict=True)), float(deme.fitness[0])
+
+    @staticmethod
+    def fittest(best: Individual | None, deme: Deme, generation: int) -> Individual | None:
+        """Return the best individual so far, or a fitter one of this generation."""
+        if len(deme) == 0:
+            return best
+        row = deme.best()
+        fitness = float(deme.fitness[row])
+        if best is not None and fitness <= best.fitness:
+            return best
+        return Individual(deme.population[row], deme.values[row], fitness, generation)
+
+    @staticmethod
+    def recorded(
+        before: State, deme: Deme, best: Individual | None, generation: int, rng: np.random.Generator,
+        counts: dict[str, int], began: float,
+    ) -> dict[str, Any]:  # fmt: skip
+        """Return the fields of the state that follows ``before``, history and counts carried on.
+
+        The history begins with the first individual; a later generation without
+        any has no fitness, which is written as 0.
+        """
+        n = len(deme)
+        distinct = deme.distinct
+        if distinct is None:
+            distinct = before.problem.representation.distinct(deme.population)[0]
+        evaluations = before.evaluations + counts.pop("evaluations", 0)
+        history = before.history
+        if best is not None:
+            top, mean, diversity = (
+                (float(deme.fitness.max()), float(deme.fitness.sum()) / n, len(distinct) / n) if n else (0.0,) * 3
+            )
+            history = history.extended(evaluations, best.fitness, top, mean, diversity)
+        return {
+            "problem": before.problem,
+            "random": rng.bit_generator.state,
+            "generation": generation,
+            "evaluations": evaluations,
+            "demes": (deme,),
+            "best": best,
+            "answer": best,
+            "history": history,
+            "counts": total(before.counts, counts) if counts else before.counts,
+            "seconds": before.seconds + time.perf_counter() - began,
+        }
+
+    def check_representation(self, problem: Problem) -> None:
+        """Refuse parts that work on another representation than the problem's.
+
+        Raises
+        ------
+        ConfigError
+            Which part it is, and what the problem has.
+        """
+        given = problem.representation.name
+        parts: list[Component] = [part for _, part in members(self)] + list(self.objectives.objectives())
+        for part in parts:
+            parts += [inner for _, inner in members(part)]
+            if part.works_on and part.works_on != given:
+                raise ConfigError(f"{part.kind} {part.name!r} works on {part.works_on!r}; the problem has {given!r}")
