@@ -14,8 +14,9 @@ Mobile Robots", Computational Intelligence and Neuroscience 2021, article
 Section by section: 3 ``collision``, 4.1 ``repair``, 4.3 ``sampling``, 4.4
 ``objectives``, ``weighting`` and ``fitness``, 4.6 ``crossover``, 4.7
 ``mutation``, both ``probability``, 4.8 ``deletion``, 4.5 and 5 ``planner``, 5.2.1
-``taguchi``, what it reports ``claims``. What the paper leaves open stands at the
-statement it concerns and in the planner's ``assumptions``.
+``taguchi``. What it reports is measured again in ``claims`` and ``experiment``.
+What the paper leaves open stands at the statement it concerns and in the
+planner's ``assumptions``.
 """
 
 from pathloom import Add, hookimpl

@@ -1,6 +1,7 @@
 """Sections 3 to 5: what the paper reports, to be measured again."""
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -19,6 +20,7 @@ from pathloom_agacd.comparing import (
     LARGE,
     LENGTH,
     SAFETY,
+    SAFETY_ALONG,
     SECONDS,
     SMALL,
     SMOOTHNESS,
@@ -57,21 +59,21 @@ FIXED = Agacd(crossover=SinglePoint(rate=0.8), mutation=SingleGene(rate=0.3))
 COMMON_NODE = Agacd(crossover=SinglePoint(join="common-node", probability=ExponentialFall(low=0.65, high=0.7)))
 """Children exchange tails at a cell that both parents visit: no long segments, until deletion makes them."""
 COMMON_NODE_FIXED = Agacd(crossover=SinglePoint(join="common-node", rate=0.8), mutation=SingleGene(rate=0.3))
+BOTH: Mapping[str, str] = {"AGACD": "agacd", "BGA": "bga"}
 OTHER_READING = ", crossover.join = common-node"
 
 PICTURE = "the map is printed as a picture only"
 
 
-def on_small_maps(bench: Bench, **planners: str | Planner) -> Runs:
-    """Return runs of AGACD, and of those that it is compared with, on maps of 20 × 20."""
-    maps = SMALL if bench.full else SMALL[::3]
-    return comparable(tried(bench, {"AGACD": "agacd", **planners}, maps, bench.seeds(20, 2)))
+def on_small_maps(bench: Bench, planners: Mapping[str, str | Planner]) -> Runs:
+    """Return runs of planners on maps of 20 × 20, whether they found a path or not."""
+    return tried(bench, planners, SMALL if bench.full else SMALL[4:7], bench.seeds(20, 3))
 
 
 def on_large_maps(bench: Bench) -> Runs:
     """Return runs of AGACD, MPMGA and BGA on maps of 50 × 50, whether they found a path or not."""
-    maps = LARGE if bench.full else LARGE[1::2]
-    return tried(bench, {"AGACD": "agacd-50", "MPMGA": "mpmga", "BGA": "bga-50"}, maps, bench.seeds(20, 4))
+    planners = {"AGACD": "agacd-50", "MPMGA": "mpmga", "BGA": "bga-50"}
+    return tried(bench, planners, LARGE if bench.full else LARGE[1::2], bench.seeds(20, 4))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +84,7 @@ class Section1(Claim):
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
         seeds, found, gaps = bench.seeds(10, 1), 0, {}
-        for name in (*SMALL[::3], *LARGE[1::2], *OTHERS):
+        for name in (*SMALL[4:7], *LARGE[1::2], *(OTHERS if bench.full else OTHERS[::2])):
             problem = bench.problem(name)
             runs = bench.runs("agacd-50" if problem.grid.height == 50 else "agacd", problem, seeds)
             found += sum(r.found for r in runs)
@@ -114,7 +116,7 @@ class Section3(Claim):
         yield Finding(
             "section 3",
             "on every grid map the trial tells whether a segment passes through an obstacle",
-            f"of {', '.join(f'{m:.2f}' for m in missed)} % of the blocked segments it does not, nor of "
+            f"wrong about {', '.join(f'{m:.2f}' for m in missed)} % of the blocked segments and about "
             f"{', '.join(f'{a:.1f}' for a in alarms)} % of the free ones, with 10, 20, 30, 40 % of obstacles",
             verdict(max(missed + alarms) == 0.0, max(missed) < 0.1 and max(alarms) < 5.0),
         )
@@ -138,7 +140,7 @@ class Section43(Claim):
     source: ClassVar[str] = "Hao et al. 2021, sections 4.1 and 4.3"
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
-        runs = on_small_maps(bench, BGA="bga")
+        runs = comparable(on_small_maps(bench, BOTH))
         mean, distinct = (
             {name: float(np.mean([r.history[what][0] for r in of])) for name, of in runs.items()}
             for what in ("mean", "diversity")
@@ -176,7 +178,7 @@ class Section46(Claim):
     source: ClassVar[str] = "Hao et al. 2021, sections 1, 4.6, 4.7 and 5.2.3"
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
-        runs = on_small_maps(bench, fixed=FIXED)
+        runs = on_small_maps(bench, {"adaptive": "agacd", "fixed": FIXED})
         crossings, mutations = (
             [np.mean([r.budget["counts"].get(f"{what} failed", 0) for r in of]) for of in runs.values()]
             for what in ("crossover", "mutation")
@@ -188,13 +190,13 @@ class Section46(Claim):
             "probabilities of 0.8 and 0.3",
             verdict(crossings[0] < crossings[1] and mutations[0] < mutations[1]),
         )
-        other = on_small_maps(bench, adaptive=COMMON_NODE, fixed=COMMON_NODE_FIXED)
         yield averages(
             "section 5.2.3", "adaptive operators make it converge earlier than fixed ones", runs, CONVERGENCE
         )
         better = "adaptive operators lead to better individuals than fixed ones"
         yield averages("section 6", better, runs, FITNESS)
-        yield averages(f"section 6{OTHER_READING}", better, only(other, "adaptive", "fixed"), FITNESS)
+        runs = on_small_maps(bench, {"adaptive": COMMON_NODE, "fixed": COMMON_NODE_FIXED})
+        yield averages(f"section 6{OTHER_READING}", better, runs, FITNESS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -204,7 +206,7 @@ class Section48(Claim):
     source: ClassVar[str] = "Hao et al. 2021, sections 4.8, 5.2.2 and 5.2.3, figs. 6 and 12, (a) and (b)"
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
-        small, large = on_small_maps(bench, common=COMMON_NODE, BGA="bga"), on_large_maps(bench)
+        small, large = comparable(on_small_maps(bench, {**BOTH, "common": COMMON_NODE})), on_large_maps(bench)
         for place, runs in (("fig. 6", small["AGACD"]), (f"fig. 6{OTHER_READING}", small["common"]),
                             ("fig. 12", large["AGACD"])):  # fmt: skip
             before, after = UNREFINED.values(runs), FITNESS.values(runs)
@@ -214,7 +216,7 @@ class Section48(Claim):
                 "deletion (b) makes a better path of the best one (a)",
                 f"mean fitness {before.mean():.3f} before, {after.mean():.3f} after; "
                 f"better in {better} of {len(runs)} runs, worse in {worse}",
-                verdict(worse == 0 and better > 0.5 * len(runs), worse == 0 and better > 0.1 * len(runs)),
+                verdict(worse == 0 and better >= 0.9 * len(runs), worse == 0 and better >= 0.1 * len(runs)),
             )
         bga, parts = UNREFINED.values(small["BGA"]).mean(), []
         for runs in (small["AGACD"], small["common"]):
@@ -223,8 +225,8 @@ class Section48(Claim):
         yield Finding(
             "section 5.2.3",
             "AGACD's individuals are better than BGA's because of deletion",
-            f"{parts[0]:.0f} % of the lead in mean fitness are due to deletion, {parts[1]:.0f} % with crossover.join = "
-            "common-node",
+            f"of the lead in mean fitness deletion makes {parts[0]:.0f} %, with crossover.join = common-node "
+            f"{parts[1]:.0f} %",
             verdict(parts[0] > 50.0),
         )
         means = "mean fitness 0.2952, BGA 0.2072"
@@ -238,14 +240,17 @@ class Figure6(Claim):
     source: ClassVar[str] = "Hao et al. 2021, section 5.2.2, fig. 6"
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
-        runs = on_small_maps(bench, BGA="bga")
-        every = {name: len(of) for name, of in runs.items()}
-        tries = bench.seeds(20, 2) * len(SMALL if bench.full else SMALL[::3])
-        yield Finding("fig. 6", "both algorithms find paths", f"both in {every['BGA']} of {tries} runs",
-                      verdict(every["BGA"] == tries))  # fmt: skip
+        tries = on_small_maps(bench, BOTH)
+        runs, total = comparable(tries), len(tries["AGACD"])
+        found = len(runs["AGACD"])
+        yield Finding(
+            "fig. 6", "both algorithms find paths", f"both in {found} of {total} runs", verdict(found == total)
+        )
         yield averages("fig. 6", "AGACD's path is shorter", runs, LENGTH)
         yield averages("fig. 6", "AGACD's path is smoother", runs, SMOOTHNESS)
-        yield averages("fig. 6", "AGACD's path is slightly less safe", only(runs, "BGA", "AGACD"), SAFETY)
+        less_safe, swapped = "AGACD's path is slightly less safe", only(runs, "BGA", "AGACD")
+        yield averages("fig. 6", less_safe, swapped, SAFETY)
+        yield averages("fig. 6, safety.of = cells", less_safe, swapped, SAFETY_ALONG)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -255,7 +260,7 @@ class Table7(Claim):
     source: ClassVar[str] = "Hao et al. 2021, section 5.2.4, table 7"
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
-        shares, measured = sampling_shares(on_small_maps(bench, BGA="bga"))
+        shares, measured = sampling_shares(comparable(on_small_maps(bench, BOTH)))
         yield Finding(
             "table 7",
             "the first population takes 0.0414 of 1.63 s, 2.54 %, BGA's 0.3089 of 1.98 s, 15.60 %",
@@ -272,18 +277,18 @@ class Table8(Claim):
     source: ClassVar[str] = "Hao et al. 2021, sections 5.2.3 and 5.2.5, tables 8 and 9, figs. 7 to 10"
 
     def examine(self, bench: Bench) -> Iterator[Finding]:
-        runs = on_small_maps(bench, BGA="bga")
+        runs = comparable(on_small_maps(bench, BOTH))
         late = float((CONVERGENCE.values(runs["BGA"]) > 200).mean())
         yield averages("table 8", "mean fitness 0.2952, BGA 0.2072", runs, FITNESS, extent(runs))
         yield averages("table 8, fig. 7", "converges at generation 60.95, BGA at 170.3", runs, CONVERGENCE,
                        overtaken(runs, "BGA"))  # fmt: skip
         yield averages("table 8", "1.5125 s, BGA 1.9508 s", runs, SECONDS)
         yield spreads("table 9", "standard deviation of fitness 0.0798, BGA slightly less, 0.0639", runs, FITNESS,
-                      lambda sd: verdict(sd[1] < sd[0] < 2 * sd[1], sd[1] < sd[0]))  # fmt: skip
+                      lambda sd: sd[1] < sd[0])  # fmt: skip
         yield spreads("table 9", "standard deviation of convergence 21.6, BGA much more, 100.8", runs, CONVERGENCE,
-                      lambda sd: verdict(sd[0] < 0.5 * sd[1], sd[0] < 0.75 * sd[1]))  # fmt: skip
+                      lambda sd: sd[0] < 0.75 * sd[1])  # fmt: skip
         yield spreads("table 9", "standard deviation of time 0.1834 s, BGA more, 0.4922 s", runs, SECONDS,
-                      lambda sd: verdict(sd[0] < sd[1]))  # fmt: skip
+                      lambda sd: sd[0] < sd[1])  # fmt: skip
         yield wins("fig. 8", "fitter than BGA in 18 of 20 runs", runs, FITNESS, {"BGA": 18 / 20})
         yield extremes("fig. 8", "best fitness 0.4392, BGA 0.3431; the worst is better as well", runs, "BGA")
         yield wins("fig. 9", "earlier than BGA in almost every run", runs, CONVERGENCE, {"BGA": 0.9})
@@ -301,18 +306,20 @@ class Figure12(Claim):
     def examine(self, bench: Bench) -> Iterator[Finding]:
         tries = on_large_maps(bench)
         runs, found = comparable(tries), {name: sum(r.found for r in of) for name, of in tries.items()}
-        without = sorted({r.problem["map"] for of in tries.values() for r in of if not r.found})
+        failed = Counter(together[0].problem["map"] for together in zip(*tries.values(), strict=True)
+                         if not all(r.found for r in together))  # fmt: skip
         yield Finding(
             "fig. 12",
             "all three algorithms find paths",
             f"{', '.join(f'{name} {n}' for name, n in found.items())} of {len(tries['AGACD'])} runs; "
-            f"the sampling of MPMGA and BGA fails on {', '.join(without)}",
+            f"sampling fails on {', '.join(f'{name} ({n} times)' for name, n in failed.items())}",
             verdict(min(found.values()) == len(tries["AGACD"])),
         )
         yield averages("fig. 12", "AGACD's path is the shortest", runs, LENGTH)
         yield averages("fig. 12", "AGACD's path is the smoothest", runs, SMOOTHNESS)
-        yield averages("fig. 12", "AGACD's path is safer than MPMGA's", only(runs, "AGACD", "MPMGA"), SAFETY)
-        yield averages("fig. 12", "AGACD's path is less safe than BGA's", only(runs, "BGA", "AGACD"), SAFETY)
+        for place, quantity in (("fig. 12", SAFETY), ("fig. 12, safety.of = cells", SAFETY_ALONG)):
+            yield averages(place, "AGACD's path is safer than MPMGA's", only(runs, "AGACD", "MPMGA"), quantity)
+            yield averages(place, "AGACD's path is less safe than BGA's", only(runs, "BGA", "AGACD"), quantity)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -335,7 +342,7 @@ class Table11(Claim):
             f"recomputed: {right} of {len(printed)} rows right",
             verdict(right == len(printed)),
         )
-        large, small = comparable(on_large_maps(bench)), on_small_maps(bench, BGA="bga")
+        large, small = comparable(on_large_maps(bench)), comparable(on_small_maps(bench, BOTH))
         (shares, measured), (before, _) = sampling_shares(large), sampling_shares(small)
         yield Finding(
             "table 11",
@@ -385,13 +392,13 @@ class Table12(Claim):
         yield averages("table 12", "10.16 s, MPMGA 55.69 s, BGA 49.13 s: AGACD fastest", runs, SECONDS)
         yield averages("section 5.3.5", "MPMGA takes even longer than BGA", only(runs, "BGA", "MPMGA"), SECONDS)
         yield spreads("table 13", "standard deviation of fitness 0.0426, BGA less, 0.0208", only(runs, "AGACD", "BGA"),
-                      FITNESS, lambda sd: verdict(sd[1] < sd[0] < 4 * sd[1], sd[1] < sd[0]))  # fmt: skip
+                      FITNESS, lambda sd: sd[1] < sd[0])  # fmt: skip
         yield spreads("table 13", "standard deviation of fitness 0.0426, MPMGA more, 0.0514",
-                      only(runs, "AGACD", "MPMGA"), FITNESS, lambda sd: verdict(sd[0] < sd[1]))  # fmt: skip
+                      only(runs, "AGACD", "MPMGA"), FITNESS, lambda sd: sd[0] < sd[1])  # fmt: skip
         yield spreads("table 13", "standard deviation of convergence 48.5, less than MPMGA's, 62.4, and BGA's, 84.6",
-                      runs, CONVERGENCE, lambda sd: verdict(sd[0] < sd[1] < sd[2], sd[0] < min(sd[1:])))  # fmt: skip
+                      runs, CONVERGENCE, lambda sd: sd[0] < min(sd[1:]))  # fmt: skip
         yield spreads("table 13", "standard deviation of time 1.17 s, less than MPMGA's, 8.40 s, and BGA's, 5.90 s",
-                      runs, SECONDS, lambda sd: verdict(sd[0] < sd[2] < sd[1], sd[0] < min(sd[1:])))  # fmt: skip
+                      runs, SECONDS, lambda sd: sd[0] < min(sd[1:]))  # fmt: skip
         yield wins("fig. 14", "fitter than BGA in 20 of 20 runs, than MPMGA in 17", runs, FITNESS,
                    {"BGA": 1.0, "MPMGA": 17 / 20})  # fmt: skip
         yield extremes("fig. 14", "best fitness 0.5634, BGA 0.3376; the worst is better as well", runs, "BGA")

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom import Bench, Finding, Floats, Result
-from pathloom.claims import Comparison, Verdict, smaller, verdict
+from pathloom.claims import Comparison, smaller, verdict
 from pathloom.kernel.planner import Planner
+from pathloom_agacd.objectives import NeighbourPenaltyOnce
 
 SMALL = tuple(f"random-20:{75 if k < 5 else 102}:s{k}" for k in range(10))
 LARGE = tuple(f"random-50:20%:s{k}" for k in range(6))
@@ -44,6 +45,13 @@ class Quantity:
         return ", ".join(f"{name} {number:.{self.digits}f}" for name, number in numbers.items())
 
 
+def _safety_along(run: Result) -> float:
+    assert run.path is not None, "comparable runs found a path"
+    assert run.path_problem is not None, "they come from a bench"
+    row = run.path_problem.representation.encode([run.path])
+    return float(NeighbourPenaltyOnce(of="cells").measure(row, run.path_problem)[0])
+
+
 FITNESS = Quantity(lambda r: r.fitness, "fitter", larger=True, digits=3)
 UNREFINED = Quantity(lambda r: float(r.history["best"][-1]), "fitter", larger=True, digits=3)
 CONVERGENCE = Quantity(lambda r: r.convergence, "earlier", digits=0)
@@ -51,6 +59,8 @@ SECONDS = Quantity(lambda r: float(r.budget["seconds"]), "faster", digits=3, tim
 LENGTH = Quantity(lambda r: r.objectives["length"], "shorter")
 SMOOTHNESS = Quantity(lambda r: r.objectives["smoothness"], "smoother")
 SAFETY = Quantity(lambda r: r.objectives["safety"], "safer")
+SAFETY_ALONG = Quantity(_safety_along, "safer")
+"""With the obstacles beside every cell that a path passes, not only beside its points."""
 
 
 def tried(bench: Bench, planners: Mapping[str, str | Planner], maps: Iterable[str], seeds: int) -> Runs:
@@ -96,11 +106,11 @@ def wins(place: str, says: str, runs: Runs, quantity: Quantity, shares: Mapping[
     return Finding(place, says, f"{name} {measured}", result, quantity.timed)
 
 
-def spreads(place: str, says: str, runs: Runs, quantity: Quantity, judge: Callable[[list[float]], Verdict]) -> Finding:
-    """Return how far runs on one map differ, and whether that is in the order that ``judge`` looks for."""
+def spreads(place: str, says: str, runs: Runs, quantity: Quantity, ordered: Callable[[list[float]], bool]) -> Finding:
+    """Return how far runs on one map differ, and whether that is ordered as it should be."""
     found = {name: _spread(quantity.values(of), _maps(runs)) for name, of in runs.items()}
     measured = f"{quantity.said(found)} for the runs on one map"
-    return Finding(place, says, measured, judge(list(found.values())), quantity.timed)
+    return Finding(place, says, measured, verdict(False, ordered(list(found.values()))), quantity.timed)
 
 
 def extremes(place: str, says: str, runs: Runs, other: str) -> Finding:

@@ -39,7 +39,7 @@ class Afsa(Swarm):
         "100 fish and 100 iterations, each of which takes hundreds of evaluations; 10 tries, a visual of 0.25 and a "
         "step of 0.1 are ours, δ = 0.618 is common.",
         "The distance of two fish is the root mean square over their way-points, in shares of the map's sides.",
-        "A place is crowded where the share of the fish that are in sight of it reaches δ; of a centre, in sight of the "
+        "A place is crowded where the share of the fish in sight of it reaches δ; of a centre, those in sight of the "
         "fish itself. Other texts compare food (crowding = food-ratio).",
         "All fish look at where the others were before the iteration.",
         "A fish that leaves the map is put on its border.",

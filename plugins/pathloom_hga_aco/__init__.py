@@ -22,7 +22,7 @@ from pathloom import Add, hookimpl
 @hookimpl
 def register(add: Add) -> None:
     """Add the paper's operators and its planners."""
-    from pathloom_hga_aco.claims import Table3
+    from pathloom_hga_aco.claims import Table2, Table3
     from pathloom_hga_aco.control import FamilyCompetition
     from pathloom_hga_aco.crossover import SinglePointGeneAware
     from pathloom_hga_aco.deadlock import DeadAngleTable
@@ -44,7 +44,7 @@ def register(add: Add) -> None:
         SinglePointGeneAware, TwoWayReverseSearch, FamilyCompetition,
         EdgeLength, GaPheromoneSeed, TwoBest, DeadAngleTable,
         GaHgaAco, AcoHgaAco, HgaAco,
-        Table3,
+        Table2, Table3,
         GreedyParentShortcut, Rrt, SRrt,
     ):  # fmt: skip
         add(component)

@@ -1,4 +1,4 @@
-"""Section 5.6: what table 3 reports of HGA-ACO, its ant colony and its genetic algorithm, to be measured again."""
+"""Sections 4 and 5.6: what the paper reports of S-RRT and of HGA-ACO, to be measured again."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -85,3 +85,42 @@ def _shorter(
         f"{gaps[0]:.1f} and {gaps[1]:.1f} % above the optimum, shorter in {lead}; longer in {longer}; {where}",
         verdict(False, longer <= lead.wins),
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table2(Claim):
+    """S-RRT against RRT: shorter paths of fewer nodes, for more time."""
+
+    source: ClassVar[str] = "Song et al. 2021, section 4, table 2"
+
+    def examine(self, bench: Bench) -> Iterator[Finding]:
+        said = (
+            ("30.27, 4.25 nodes (S-RRT) against 36.50, 20.5 nodes (RRT)", "blocks-20:10%"),
+            ("30.47, 3.35 nodes (S-RRT) against 35.33, 20.05 nodes (RRT)", "blocks-20:20%"),
+            ("30.90, 4.35 nodes (S-RRT) against 36.64, 20.70 nodes (RRT)", "blocks-20:20%:s1"),
+        )
+        seconds: list[list[float]] = [[], []]
+        for scenario, (says, name) in enumerate(said, 1):
+            problem, seeds = bench.problem(name, corners="strict"), bench.seeds(100, 20)
+            smooth, plain = (bench.runs(planner, problem, seeds) for planner in ("s-rrt", "rrt"))
+            lengths = [[r.length for r in runs] for runs in (smooth, plain)]
+            nodes = [float(np.mean([r.metrics["nodes"] for r in runs])) for runs in (smooth, plain)]
+            for of, runs in zip(seconds, (smooth, plain), strict=True):
+                of += [r.budget["seconds"] for r in runs]
+            lead, gain = smaller(*lengths), 1.0 - np.mean(lengths[0]) / np.mean(lengths[1])
+            yield Finding(
+                f"table 2, scenario {scenario}",
+                says,
+                f"{np.mean(lengths[0]):.2f}, {nodes[0]:.1f} nodes against {np.mean(lengths[1]):.2f}, {nodes[1]:.1f} nodes "
+                f"({100 * gain:.0f} % shorter, in {lead}; {name}, {seeds} seeds)",
+                verdict(False, lead.p < 0.05 and nodes[0] < nodes[1]),
+            )
+        ratio = float(np.median(seconds[0]) / np.median(seconds[1]))
+        yield Finding(
+            "table 2",
+            "1.78, 2.11, 2.23 s (S-RRT) against 1.46, 1.71, 1.86 s (RRT), a fifth more",
+            f"medians {1000 * np.median(seconds[0]):.2f} and {1000 * np.median(seconds[1]):.2f} ms, "
+            f"{ratio:.2f} times as long",
+            verdict(1.1 < ratio < 1.4, ratio > 1.0),
+            timed=True,
+        )

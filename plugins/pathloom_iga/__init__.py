@@ -24,7 +24,7 @@ from pathloom import Add, hookimpl
 @hookimpl
 def register(add: Add) -> None:
     """Add the paper's operators and its planner."""
-    from pathloom_iga.claims import Figure5, Figures6To9, Reference, SuccessRates, Table1, Table2
+    from pathloom_iga.claims import Section37, Section41, Section42, SuccessRates, Table1, Table2
     from pathloom_iga.claims_of_parts import Equation11, Section31, Section32, Section33, Section34, Section35
     from pathloom_iga.collision import LineDistance, SegmentDistance
     from pathloom_iga.crossover import CommonNode
@@ -47,9 +47,9 @@ def register(add: Add) -> None:
         SegmentDistance,
         ReferencePopulation,
         Iga,
-        Figure5,
-        Figures6To9,
-        Reference,
+        Section41,
+        Section42,
+        Section37,
         Table1,
         Table2,
         SuccessRates,

@@ -39,7 +39,7 @@ PATHLESS = 1e6
 
 def lengths(runs: Sequence[Result]) -> list[float]:
     """Return the length that each run reached."""
-    return [min(r.length, PATHLESS) for r in runs]
+    return [round(min(r.length, PATHLESS), 9) for r in runs]  # equal paths may differ in the last digit
 
 
 def mean(runs: Sequence[Result], what: str = "length") -> float:
@@ -67,17 +67,17 @@ def lost(runs: Sequence[Result]) -> list[float]:
 
 def on_map_1(bench: Bench, planner: str | Mapping[str, Any]) -> list[Result]:
     """Return runs on the printed map."""
-    return bench.runs(planner, bench.problem("iga-map1"), bench.seeds(100, 20))
+    return bench.runs(planner, bench.problem("iga-map1"), bench.seeds(100, 15))
 
 
 def at_random(bench: Bench, planner: str | Mapping[str, Any]) -> list[Result]:
     """Return runs on five random maps like that of table 1."""
     problems = [bench.problem(f"random-20:75:s{k}") for k in range(5)]
-    return [r for problem in problems for r in bench.runs(planner, problem, bench.seeds(20, 3))]
+    return [r for problem in problems for r in bench.runs(planner, problem, bench.seeds(20, 2))]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Figure5(Claim):
+class Section41(Claim):
     """Adaptive probabilities."""
 
     source: ClassVar[str] = "Liu et al. 2024, section 4.1, fig. 5"
@@ -91,21 +91,18 @@ class Figure5(Claim):
         ):
             here = measure(adaptive), measure(fixed)
             there = measure(adaptive_too), measure(fixed_too)
-            leads = smaller(*here), smaller(*there)
+            nearer = np.mean(here[0]) < np.mean(here[1]) and np.mean(there[0]) < np.mean(there[1])
             yield Finding(
                 "section 4.1, fig. 5",
                 says,
-                f"{unit}: {np.mean(here[0]):.1f} against {np.mean(here[1]):.1f} on map 1, less in {leads[0]}; "
-                f"{np.mean(there[0]):.1f} against {np.mean(there[1]):.1f} on random maps, less in {leads[1]}",
-                verdict(
-                    all(lead.p < 0.05 for lead in leads),
-                    np.mean(here[0]) < np.mean(here[1]) and np.mean(there[0]) < np.mean(there[1]),
-                ),
+                f"{unit}: {np.mean(here[0]):.1f} against {np.mean(here[1]):.1f} on map 1, less in {smaller(*here)}; "
+                f"{np.mean(there[0]):.1f} against {np.mean(there[1]):.1f} on random maps, less in {smaller(*there)}",
+                verdict(nearer and smaller([*here[0], *there[0]], [*here[1], *there[1]]).p < 0.05, nearer),
             )
 
 
 @dataclass(frozen=True, kw_only=True)
-class Figures6To9(Claim):
+class Section42(Claim):
     """Deletion and optimisation operators on map 1."""
 
     source: ClassVar[str] = "Liu et al. 2024, section 4.2, figs. 6 to 9"
@@ -158,7 +155,7 @@ class Figures6To9(Claim):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reference(Claim):
+class Section37(Claim):
     """The reference population."""
 
     source: ClassVar[str] = "Liu et al. 2024, abstract and sections 3.7 and 5"
@@ -170,16 +167,17 @@ class Reference(Claim):
         yield Finding(
             "section 5",
             "the reference population greatly accelerates convergence",
-            f"{np.mean(counted[0]):.1f} generations to the best, {np.mean(counted[1]):.1f} without it; fewer in {lead}, "
-            "random maps",
+            f"{np.mean(counted[0]):.1f} generations to the best on random maps, {np.mean(counted[1]):.1f} without it; "
+            f"fewer in {lead}",
             verdict(lead.p < 0.05),
         )
-        lead = smaller(counted[0], counted[2])
+        two, without_it, one = (float(np.mean(c)) for c in counted)
         yield Finding(
             "section 5, control",
             "it is the exchange that accelerates, not the number of individuals",
-            f"{np.mean(counted[2]):.1f} with one population of 600; fewer with two of 300 in {lead}",
-            verdict(lead.p < 0.05, np.mean(counted[0]) < np.mean(counted[2])),
+            f"{one:.1f} with one population of 600; two of 300 need fewer in {smaller(counted[0], counted[2])}; so "
+            f"{100 * (one - two) / (without_it - two):.0f} % of the gain is the exchange's",
+            verdict(one - two > without_it - one, two < one),
         )
         steady = lost(whole), lost(without)
         lead = smaller(*steady)
@@ -238,11 +236,13 @@ class Table(Claim, ABC):
 
     def _control(self, runs: Mapping[str, list[Result]], deleted: list[Result]) -> Finding:
         lead = smaller(lengths(runs[OURS]), lengths(deleted))
+        ours, plain, other = mean(runs[OURS]), mean(runs["ga-iga"]), mean(deleted)
         return Finding(
             f"{self.place}, control",
-            "IGA is shorter than GA; GA with points deleted too",
-            f"{mean(runs[OURS]):.4f} and {mean(deleted):.4f}; IGA shorter in {lead}",
-            verdict(lead.p < 0.05),
+            "IGA is shorter than GA",
+            f"with points of GA's paths deleted too, {ours:.4f} and {other:.4f}: of {100 * (1 - ours / plain):.2f} % "
+            f"{100 * (1 - ours / other):.2f} % are left; IGA shorter in {lead}",
+            verdict(other - ours > 0.5 * (plain - ours)),
         )
 
     def _times(self, runs: Mapping[str, list[Result]]) -> Finding:
@@ -269,22 +269,20 @@ class Table(Claim, ABC):
         """Yield what the text says of the table, worked out again from the table."""
         length, time, success = (np.array([self.rows[m][k] for m in METHODS]) for k in range(3))
         names = ", ".join(OTHERS.values())
-        for what, (low, high), readings in (
-            ("length is less by", self.stated[0], {"": 1 - length[0] / length[1:], "of IGA's": length[1:] / length[0] - 1}),
-            ("time is less by", self.stated[1], {"": 1 - time[0] / time[1:], "of IGA's": time[1:] / time[0] - 1}),
-            ("success is more by", self.stated[2], {"points": (success[0] - success[1:]) / 100,
-                                                   "relative": success[0] / success[1:] - 1}),
-        ):  # fmt: skip
-            met = [bool(((np.round(100 * by) >= low) & (np.round(100 * by) <= high)).all()) for by in readings.values()]
-            text = " or ".join(
-                f"{', '.join(f'{100 * b:.1f}' for b in by)} % {how}".strip() for how, by in readings.items()
-            )
-            more = all((by > 0).all() for by in readings.values())
+        readings = (
+            ("length is less by", {"%": 1 - length[0] / length[1:], "% of IGA's": length[1:] / length[0] - 1}),
+            ("time is less by", {"%": 1 - time[0] / time[1:], "% of IGA's": time[1:] / time[0] - 1}),
+            ("success is more by", {"points": (success[0] - success[1:]) / 100, "%": success[0] / success[1:] - 1}),
+        )
+        for (what, reading), (low, high) in zip(readings, self.stated, strict=True):
+            whole = [np.round(100 * by) for by in reading.values()]
+            met = any(((by >= low) & (by <= high)).all() for by in whole)
+            text = " or ".join(f"{', '.join(f'{100 * b:.1f}' for b in by)} {unit}" for unit, by in reading.items())
             yield Finding(
                 f"section 4.3, {self.place}",
                 f"{what} {low} % to {high} %",
                 f"by the table itself, against {names}: {text}",
-                verdict(any(met), more),
+                verdict(met, all((by > 0).all() for by in whole)),
             )
 
 
@@ -328,7 +326,7 @@ class Table2(Table):
         yield Finding(
             "table 2",
             f"mean length {printed} on 40 × 40, from corner to corner as elsewhere",
-            f"the straight line between the centres of the corner cells is {straight:.4f}; start and goal must be others",
+            f"between the centres of the corner cells no path is shorter than {straight:.4f}; start and goal must be others",
             verdict(printed >= straight),
         )
 
@@ -345,7 +343,7 @@ class SuccessRates(Claim):
         yield Finding(
             "tables 1, 2",
             "success rates of 100 runs",
-            f"{len(broken)} of {len(printed)} are no whole per cent, such as {broken[0]}: no share of 100 runs; what is "
-            "counted is not said",
+            f"{len(broken)} of {len(printed)} are no whole per cent, such as {broken[0]}, and so no share of 100 runs; "
+            "what is counted is not said",
             verdict(not broken),
         )

@@ -49,7 +49,7 @@ PATHLESS = 1e6
 
 def lengths(runs: list[Result]) -> list[float]:
     """Return the length that each run reached."""
-    return [min(r.length, PATHLESS) for r in runs]
+    return [round(min(r.length, PATHLESS), 9) for r in runs]  # equal paths may differ in the last digit
 
 
 def mean(runs: list[Result], what: str = "length") -> float:

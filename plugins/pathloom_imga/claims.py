@@ -65,7 +65,8 @@ class Table2(Claim):
         yield Finding(
             "table 2",
             "best path found in 0, 2, 4, 5 of 10 runs with 20, 50, 100, 200 generations",
-            f"in {', '.join(f'{10 * s:.1f}' for s in share)} of 10 (random-20:160, {len(problems)} maps × {seeds} seeds)",
+            f"in {', '.join(f'{10 * s:.1f}' for s in share)} of 10 "
+            f"(random-20:160, {len(problems)} maps × {seeds} seeds)",
             verdict(False, bool(share[-1] > share[0] and (np.diff(share) >= -0.05).all())),
         )
         yield Finding(

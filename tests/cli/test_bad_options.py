@@ -66,7 +66,7 @@ def test_start_and_goal_in_one_cell_are_a_path_of_length_0(cli, ring) -> None:
 
 PLANNER = {
     "--planner imgaa": "--planner: no planner is called 'imgaa'; did you mean 'imga/imga'?",
-    "--planner imag/imga": "no plugin is called 'imag'; did you mean 'imga'?",
+    "--planner agac/imga": "no plugin is called 'agac'; did you mean 'agacd'?",
     "--planner roulette": "'roulette' is a selection, not a planner",
     "--set selektion=roulette": "'imga/imga' has no such slot or parameter; did you mean 'selection'?",
     "--set selection=roulete": "no selection is called 'roulete'; did you mean 'roulette'?",

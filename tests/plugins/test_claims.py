@@ -9,12 +9,12 @@ from pathloom.errors import ConfigError
 
 PAGES = Path(__file__).parents[2] / "plugins"
 HEAD = "| where | the paper says | we measure | verdict |"
-CLAIMING = ("agacd", "imga", "imaga", "iga")
+CLAIMING = ("agacd", "imga", "imaga", "iga", "hga-aco")
 
 
 def printed(plugin):
     """The verdict that a plugin's page gives on each statement."""
-    page = (PAGES / f"pathloom_{plugin}" / "README.md").read_text(encoding="utf-8")
+    page = (PAGES / f"pathloom_{plugin.replace('-', '_')}" / "README.md").read_text(encoding="utf-8")
     assert page.count(HEAD) == 1
     rows = {}
     for line in page.split(HEAD)[1].splitlines()[2:]:

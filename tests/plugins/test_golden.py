@@ -33,6 +33,7 @@ GOLDEN = {  # length, turns, generations, evaluations
     ("gwo", "random-20:75:s3", "allow", 0): (31.477604, 4, 500, 50100),
     ("afsa", "random-20:75:s3", "allow", 0): (28.715951, 5, 100, 142377),
     ("afsa-grid", "random-20:75:s3", "strict", 0): (30.970563, 16, 41, 20),
+    ("ssa", "iga-map1", "allow", 0): (14.233345, 6, 500, 51127),
     ("bezier-ga", "random-20:75:s3", "allow", 0): (38.0, 27, 100, 10100),
     ("aco-hga-aco", "random-20:75:s3", "allow", 0): (28.041631, 7, 100, 4960),
     ("ga-hga-aco", "random-20:75:s3", "strict", 0): (31.556349, 12, 100, 6056),

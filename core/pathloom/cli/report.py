@@ -109,8 +109,10 @@ def notes(result: Result) -> Iterator[str]:
 
 def _advice(result: Result) -> str:
     """Return what may help where the planner's own sampling found nothing."""
-    sampling = result.config["planner"].get("sampling", {}).get("use", "perturbed-trees")
-    if result.budget.get("evaluations") == 0 and not result.interrupted and sampling != "perturbed-trees":
+    sampling = result.config["planner"].get("sampling")
+    if not sampling or result.interrupted or result.budget.get("evaluations") != 0:
+        return ""
+    if sampling["use"] != "perturbed-trees":
         return "; try --set sampling=perturbed-trees"
     return ""
 

@@ -1,4 +1,4 @@
-"""Real vectors as paths, and how far a path lies in obstacles."""
+"""Real vectors as paths, how far a path lies in obstacles, and the cells along a curve."""
 
 import math
 
@@ -7,6 +7,9 @@ import numpy as np
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.rows import blank, length_of, row_of, unpack, with_room
 from pathloom.compiled.segments import segment_free
+
+SAME = 1e-9
+"""Share of a chord: borders that it crosses within less are crossed at once, in the corner that they share."""
 
 
 @part("i8(f8, i8)")
@@ -114,10 +117,6 @@ def violations(population, blocked, cols, policy):
                 total += inside + 1.0
         found[k] = total
     return found
-
-
-SAME = 1e-9
-"""Share of a chord: borders that it crosses within less are crossed at once, in the corner that they share."""
 
 
 @part("void(f8[:, :, ::1], i8, f8, f8[:, ::1])")

@@ -24,7 +24,7 @@ from pathloom.paths.vectors import VectorPlanner, Vectors, VectorState
 
 @dataclass(frozen=True, kw_only=True)
 class Swarm(VectorPlanner, Search, ABC):
-    """A planner that moves real vectors."""
+    """A planner that moves vectors in [0, 1], by a rule that makes up the method: `move`."""
 
     decoder: Decoder = Waypoints()
     """Reads them as paths."""
