@@ -19,7 +19,7 @@ from pathloom.kernel.problem import Problem
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import check_interrupt, check_seed, run
 from pathloom.kernel.run import iterate as iterate_planner
-from pathloom.kernel.state import State
+from pathloom.kernel.state import Record, State
 from pathloom.paths.cell_paths import Path
 from pathloom.paths.curves import Curve, Points, PolylinePlanner, Smoother
 from pathloom.paths.metrics import metrics
@@ -125,7 +125,7 @@ def plan(
         "counts": dict(sorted(state.counts.items())) if state else {},
     }
     if state is not None:
-        facts["history"] = {k: list(v) for k, v in vars(state.history).items()}
+        facts["history"] = {name: list(getattr(state.history, name)) for name in Record._fields}
     if path is not None:
         met = contacts(path, problem)
         facts["metrics"] = {**metrics(path, problem), "touches": met.touches, "squeezes": met.squeezes}

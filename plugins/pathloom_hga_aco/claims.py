@@ -111,7 +111,8 @@ class Table2(Claim):
             yield Finding(
                 f"table 2, scenario {scenario}",
                 says,
-                f"{np.mean(lengths[0]):.2f}, {nodes[0]:.1f} nodes against {np.mean(lengths[1]):.2f}, {nodes[1]:.1f} nodes "
+                f"{np.mean(lengths[0]):.2f}, {nodes[0]:.1f} nodes against "
+                f"{np.mean(lengths[1]):.2f}, {nodes[1]:.1f} nodes "
                 f"({100 * gain:.0f} % shorter, in {lead}; {name}, {seeds} seeds)",
                 verdict(False, lead.p < 0.05 and nodes[0] < nodes[1]),
             )

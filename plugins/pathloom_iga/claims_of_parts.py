@@ -63,14 +63,14 @@ class Section32(Claim):
     def examine(self, bench: Bench) -> Iterator[Finding]:
         problem = bench.problem("iga-map1")
         occupied = problem.context.occupied
-        example = Numbering(10, 10).cells(EXAMPLE)
-        upside = Numbering(10, 10).cells(EXAMPLE) * (-1, 1) + (9, 0)
+        cells = Numbering(10, 10).cells(EXAMPLE)
+        upright, upside_down = (int(occupied[rows, cells[:, 1]].sum()) for rows in (cells[:, 0], 9 - cells[:, 0]))
         yield Finding(
             "fig. 2",
             f"the individual {', '.join(map(str, EXAMPLE))} on map 1 stands on free cells",
-            f"{occupied[tuple(example.T)].sum()} of {len(EXAMPLE)} on obstacles, if the last line of the matrix is row 1; "
-            f"{occupied[tuple(upside.T)].sum()}, if the first is",
-            verdict(not occupied[tuple(example.T)].any()),
+            f"{upright} of its cells on obstacles if row 1 is the last line of the matrix, {upside_down} if it is the "
+            "first",
+            verdict(upright == 0),
         )
         shares = []
         for source in ("iga-map1", "random-20:75"):
@@ -140,7 +140,7 @@ class Section34(Claim):
             "the probability is P_max below the mean, falls from there, and is P_min for the fittest",
             f"300 lengths from 28 to 50, P in [0.5, 0.8]: {rates[~above].min():.2f} below the mean, "
             f"{rates[above].max():.3f} just above it, a jump of f_avg / f_max; {rates.min():.2f} for the fittest",
-            verdict(False, falls and rates[~above].min() == high and rates.min() == rates[np.argmax(fitness)] == low),
+            verdict(falls and rates[~above].min() == high and rates.min() == rates[np.argmax(fitness)] == low),
         )
         problem, rng = bench.problem("random-20:75"), np.random.default_rng(0)
         paths = RowWise().sample(problem, 1000, rng)

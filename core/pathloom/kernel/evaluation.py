@@ -4,6 +4,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -126,7 +127,8 @@ class WeightedReciprocals(Fitness):
             raise ConfigError(f"{self.name}: floors is a list of at least one number; got none")
 
     def combine(self, values: Floats, weights: Floats) -> Floats:
-        values = np.maximum(values, self._floors_of(values.shape[1]))
+        terms = values.shape[1]
+        values = np.maximum(values, self._by_terms[terms] if terms in self._by_terms else self._floors_of(terms))
         if min(self.floors) > 1e-150:  # no reciprocal overflows
             return np.asarray(np.reciprocal(values) @ weights)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -134,7 +136,11 @@ class WeightedReciprocals(Fitness):
         return np.asarray(parts.sum(axis=1, where=weights > 0.0))  # 0 / 0 counts as nothing
 
     def _floors_of(self, terms: int) -> Floats:
-        return np.array((self.floors + self.floors[-1:] * terms)[:terms])
+        return self._by_terms.setdefault(terms, np.array((self.floors + self.floors[-1:] * terms)[:terms]))
+
+    @cached_property
+    def _by_terms(self) -> dict[int, Floats]:
+        return {}
 
 
 def measure(objectives: Sequence[Objective], population: Population, problem: Problem) -> Floats:

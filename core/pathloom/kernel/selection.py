@@ -23,7 +23,7 @@ class Roulette(Selection):
 
     def select(self, fitness: Floats, n: int, rng: np.random.Generator) -> Indices:
         wheel = fitness.cumsum()
-        if not math.isfinite(wheel[-1]) or fitness.min() < 0:
+        if not math.isfinite(wheel[-1]) or fitness[fitness.argmin()] < 0:
             infinite = np.isposinf(fitness)
             wheel = np.cumsum(infinite if infinite.any() else fitness - fitness.min(), dtype=np.float64)
         total = float(wheel[-1])

@@ -6,7 +6,7 @@ always leads to the same next one.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.random.bit_generator import ISeedSequence
@@ -48,32 +48,57 @@ class Individual:
     """What an archive goes by, to be maximised."""
 
 
+class Record(NamedTuple):
+    """What one generation was like."""
+
+    evaluations: int
+    """Evaluations spent so far."""
+    best: float
+    """Best fitness found so far."""
+    generation_best: float
+    """Best fitness within the generation."""
+    mean: float
+    """Mean fitness of the generation."""
+    diversity: float
+    """Share of distinct individuals."""
+
+
 @dataclass(frozen=True)
 class History:
-    """What each generation was like, the first population included."""
+    """What each generation was like, the first population included; also column by column."""
 
-    evaluations: tuple[int, ...] = ()
-    """Evaluations spent so far."""
-    best: tuple[float, ...] = ()
-    """Best fitness found so far."""
-    generation_best: tuple[float, ...] = ()
-    """Best fitness within the generation."""
-    mean: tuple[float, ...] = ()
-    """Mean fitness of the generation."""
-    diversity: tuple[float, ...] = ()
-    """Share of distinct individuals."""
+    records: tuple[Record, ...] = ()
 
     def extended(
         self, evaluations: int, best: float, generation_best: float, mean: float, diversity: float
     ) -> "History":
         """Return the history with one more generation."""
-        return History(
-            (*self.evaluations, evaluations),
-            (*self.best, best),
-            (*self.generation_best, generation_best),
-            (*self.mean, mean),
-            (*self.diversity, diversity),
-        )
+        return History((*self.records, Record(evaluations, best, generation_best, mean, diversity)))
+
+    @property
+    def evaluations(self) -> tuple[int, ...]:
+        """Evaluations spent so far."""
+        return tuple(record.evaluations for record in self.records)
+
+    @property
+    def best(self) -> tuple[float, ...]:
+        """Best fitness found so far."""
+        return tuple(record.best for record in self.records)
+
+    @property
+    def generation_best(self) -> tuple[float, ...]:
+        """Best fitness within the generation."""
+        return tuple(record.generation_best for record in self.records)
+
+    @property
+    def mean(self) -> tuple[float, ...]:
+        """Mean fitness of the generation."""
+        return tuple(record.mean for record in self.records)
+
+    @property
+    def diversity(self) -> tuple[float, ...]:
+        """Share of distinct individuals."""
+        return tuple(record.diversity for record in self.records)
 
 
 @dataclass(frozen=True)

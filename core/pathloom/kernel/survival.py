@@ -10,11 +10,12 @@ from pathloom.kernel.problem import Problem
 from pathloom.kernel.state import Deme
 
 
-def replaced(deme: Deme, places: Indices, other: Deme, rows: Indices, problem: Problem) -> Deme:
-    """Return the deme with individuals of another one, ``rows`` (k,), in some of its places (k,)."""
+def replaced(deme: Deme, places: Indices | slice, other: Deme, rows: Indices | slice, problem: Problem) -> Deme:
+    """Return the deme with individuals of another one, k ``rows``, in k of its places."""
     values, fitness = deme.values.copy(), deme.fitness.copy()
     values[places], fitness[places] = other.values[rows], other.fitness[rows]
-    population = problem.representation.replaced(deme.population, places, other.population[rows])
+    where = np.arange(len(deme))[places] if isinstance(places, slice) else places
+    population = problem.representation.replaced(deme.population, where, other.population[rows])
     return Deme(population, values, fitness)
 
 
@@ -35,12 +36,13 @@ class KeepBest(Survival):
 
     def survive(self, parents: Deme, children: Deme, problem: Problem, rng: np.random.Generator) -> Deme:
         elites = min(self.elites, len(parents), len(children))
-        if elites == 1:
-            best, worst = np.array([parents.fitness.argmax()]), np.array([children.fitness.argmin()])
-        else:
-            best = np.argsort(-parents.fitness, kind="stable")[:elites]
-            worst = np.argsort(children.fitness, kind="stable")[:elites]
-        return replaced(children, worst, parents, best, problem)
+        if elites == 1:  # the usual number, without sorting
+            best, worst = int(parents.fitness.argmax()), int(children.fitness.argmin())
+            return replaced(children, slice(worst, worst + 1), parents, slice(best, best + 1), problem)
+        ranked = np.argsort(-parents.fitness, kind="stable")
+        return replaced(
+            children, np.argsort(children.fitness, kind="stable")[:elites], parents, ranked[:elites], problem
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
