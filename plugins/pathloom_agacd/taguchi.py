@@ -66,7 +66,7 @@ def main_effects(design: ArrayLike, trials: ArrayLike, divisor: Literal["ols", "
     else:
         weights = np.linalg.pinv(terms).T
     mean, *slopes = weights.T @ tried.mean(axis=1)  # every coefficient is a weighted sum of the rows' means
-    errors = np.sqrt((weights**2).sum(axis=0) ) * spread
+    errors = np.sqrt((weights**2).sum(axis=0) / repeats) * spread
     return MainEffects(float(mean), np.array(slopes), errors[1:], spread)
 
 
