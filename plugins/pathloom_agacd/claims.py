@@ -69,6 +69,7 @@ PICTURE = "the map is printed as a picture only"
 
 def on_small_maps(bench: Bench, planners: Mapping[str, str | Planner]) -> Runs:
     """Return runs of planners on maps of 20 × 20, whether they found a path or not."""
+    # The three in the middle have both counts of obstacles, and spread like all ten.
     return tried(bench, planners, SMALL if bench.full else SMALL[4:7], bench.seeds(20, 3))
 
 

