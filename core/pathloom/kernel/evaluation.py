@@ -4,7 +4,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -127,20 +127,18 @@ class WeightedReciprocals(Fitness):
             raise ConfigError(f"{self.name}: floors is a list of at least one number; got none")
 
     def combine(self, values: Floats, weights: Floats) -> Floats:
-        terms = values.shape[1]
-        values = np.maximum(values, self._by_terms[terms] if terms in self._by_terms else self._floors_of(terms))
+        values = np.maximum(values, _for_each(self.floors, values.shape[1]))
         if min(self.floors) > 1e-150:  # no reciprocal overflows
             return np.asarray(np.reciprocal(values) @ weights)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             parts = weights / (values + 0.0)  # -0.0 becomes 0.0
         return np.asarray(parts.sum(axis=1, where=weights > 0.0))  # 0 / 0 counts as nothing
 
-    def _floors_of(self, terms: int) -> Floats:
-        return self._by_terms.setdefault(terms, np.array((self.floors + self.floors[-1:] * terms)[:terms]))
 
-    @cached_property
-    def _by_terms(self) -> dict[int, Floats]:
-        return {}
+@lru_cache(maxsize=64)
+def _for_each(floors: tuple[float, ...], terms: int) -> Floats:
+    """Return one floor for each of so many terms."""
+    return np.array((floors + floors[-1:] * terms)[:terms])
 
 
 def measure(objectives: Sequence[Objective], population: Population, problem: Problem) -> Floats:
@@ -159,7 +157,8 @@ def measure(objectives: Sequence[Objective], population: Population, problem: Pr
                 f"objective {objective.name!r}: wanted shape ({len(population)},), one value a row; got {found.shape}"
             )
         values[:, column] = found
-    if math.isnan(values.sum()) and np.isnan(values).any():  # the sum is quicker; of two infinities it may be NaN too
+    flat = values.ravel()
+    if math.isnan(flat @ flat):  # NaN where one of the values is
         row, column = (int(i) for i in np.argwhere(np.isnan(values))[0])
         decoded = problem.representation.decode(population[row])
         raise PluginError(f"objective {objectives[column].name!r}: returned NaN for {decoded!r}".replace("\n", " "))

@@ -62,7 +62,7 @@ class Generational(Control):
         deme, problem = state.demes[which], state.problem
         parents = planner.selection.select(deme.fitness, len(deme), rng)
         progress = planner.progress(state)
-        children = planner.vary(deme.population[parents], deme.fitness[parents], problem, progress, rng)
+        children = planner.vary(deme.population.take(parents, 0), deme.fitness.take(parents), problem, progress, rng)
         return planner.survival.survive(deme, planner.evaluate(children, problem), problem, rng)
 
 
@@ -151,7 +151,7 @@ class Evolution(Search):
             adaptive = self.mutation.probability is not None
             rates = self.mutation.rates(fitness, progress) if adaptive else self.mutation.rate
             mutated = rng.random(len(population)) < rates
-            population = self.mutation.apply(population, np.flatnonzero(mutated), problem, rng)
+            population = self.mutation.apply(population, mutated.nonzero()[0], problem, rng)
         if self.repair is not None:
             population = self.repair.apply(population, problem, rng)
         return population

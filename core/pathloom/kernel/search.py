@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pathloom.errors import ConfigError
 from pathloom.kernel.component import Component, members
 from pathloom.kernel.counting import count, total
-from pathloom.kernel.evaluation import Fitness, Floats, ReciprocalOfSum, Terms, Weighting, measure
+from pathloom.kernel.evaluation import Fitness, Floats, Objective, ReciprocalOfSum, Terms, Weighting, measure
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
@@ -54,10 +54,13 @@ class Search(Planner, ABC):
         """
         count("evaluations", len(population))
         distinct, which = problem.representation.distinct(population)
-        objectives = [term.objective for term in self.objectives]
-        values = measure(objectives, population[distinct], problem)
+        values = measure(self._measured, population.take(distinct, 0), problem)
         fitness = self.fitness.combine(values, self.weights(problem))
-        return Deme(population, values[which], fitness[which], distinct)
+        return Deme(population, values.take(which, 0), fitness.take(which), distinct)
+
+    @cached_property
+    def _measured(self) -> list[Objective]:
+        return list(self.objectives.objectives())
 
     def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
         deme = self.evaluate(row[np.newaxis], problem)
@@ -91,9 +94,9 @@ class Search(Planner, ABC):
         evaluations = before.evaluations + counts.pop("evaluations", 0)
         history = before.history
         if best is not None:
-            top, mean, diversity = (
-                (float(deme.fitness.max()), float(deme.fitness.sum()) / n, len(distinct) / n) if n else (0.0,) * 3
-            )
+            top = mean = diversity = 0.0
+            if n:
+                top, mean, diversity = deme.fitness.item(deme.best()), float(deme.fitness.sum()) / n, len(distinct) / n
             history = history.extended(evaluations, best.fitness, top, mean, diversity)
         return {
             "problem": before.problem,
