@@ -215,7 +215,7 @@ class Equation11(Claim):
             "segments between cells 2 to 6 apart are refused with 10, 20, 30, 40 % of obstacles",
             verdict(missed == 0 and max(refused) == 0),
         )
-        runs = bench.runs(AS_PRINTED, bench.problem("iga-map1"), bench.seeds(20, 3))
+        runs = bench.runs(AS_PRINTED, bench.problem("iga-map1"), bench.seeds(20, 2))
         yield Finding(
             "eq. (11)",
             "with it the best path of map 1 is 13.8",

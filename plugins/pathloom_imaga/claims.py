@@ -107,7 +107,7 @@ def generated(bench: Bench) -> list[PathProblem]:
 
 def on_all(bench: Bench, planner: str | Mapping[str, Any], problems: list[PathProblem]) -> list[Result]:
     """Return runs on each of the maps."""
-    return [r for problem in problems for r in bench.runs(planner, problem, bench.seeds(10, 4))]
+    return [r for problem in problems for r in bench.runs(planner, problem, bench.seeds(10, 3))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -268,7 +268,7 @@ class Controls(Claim):
                 continue
             yield from self._compared(bench, [problem], _seeds(bench, OURS), f"{obstacles}", evolution, operators)
         problems = generated(bench)
-        yield from self._compared(bench, problems, bench.seeds(10, 4), "random maps, 75", evolution, operators)
+        yield from self._compared(bench, problems, bench.seeds(10, 3), "random maps, 75", evolution, operators)
 
     @staticmethod
     def _compared(

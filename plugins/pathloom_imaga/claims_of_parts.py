@@ -257,9 +257,9 @@ def _literal(bench: Bench) -> Iterator[Finding]:
         if problem is None:
             yield untestable("section 2.6", says, NEEDS_DATA)
             continue
-        runs = bench.runs({"use": OURS, "archive": "none"}, problem, bench.seeds(50, 15))
+        runs = bench.runs({"use": OURS, "archive": "none"}, problem, bench.seeds(50, 10))
         measured = min(lengths(runs)), mean(runs)
-        plain = bench.runs({**WITH_DELETION, "archive": "none"}, problem, bench.seeds(50, 15))
+        plain = bench.runs({**WITH_DELETION, "archive": "none"}, problem, bench.seeds(50, 10))
         text = (
             f"{measured[0]:.4f}, mean {measured[1]:.4f}, if the fittest path is taken for the best, as in fig. 9; "
             f"GA with the same deletion {min(lengths(plain)):.4f}, mean {mean(plain):.4f}"
