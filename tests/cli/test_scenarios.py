@@ -73,8 +73,6 @@ def test_a_case_can_be_frozen(cli, cases, folder: Path) -> None:
 def test_a_real_case_whose_stated_optimum_is_wrong_is_noted(cli, data: Path) -> None:
     # A start and a goal whose stated length, 295.34, is that of no 8-connected path.
     scenario = data / "movingai" / "wc3" / "battleground.map.scen"
-    if not scenario.exists():
-        pytest.skip("PATHLOOM_DATA holds no movingai/wc3/battleground.map.scen")
     quick = ("--set", "sampling=perturbed-trees", "--set", "termination.max-generations.limit=1")
     done = cli("plan", "--scenario", scenario, "--case", 10, "--optimum", *quick, "--set", "population=4", "--json")
     assert done.document["problem"]["scenario"]["stated_optimum"] == 295.34
