@@ -5,7 +5,7 @@ import numpy as np
 from pathloom.compiled.insertion import connect
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.random import below
-from pathloom.compiled.rows import blank, copy, length_of, remove_loops, widest, with_room
+from pathloom.compiled.rows import copy, length_of, remove_loops, with_changed, with_room
 
 
 @part("b1(i4[::1], i4[::1])")
@@ -30,13 +30,12 @@ def exchange_at_position(
     and the number of children that could not be joined, or whose parents have no
     interior: there the parent stays.
     """
-    n, width = population.shape
+    width = population.shape[1]
     mark = np.zeros(rows * cols, np.int32)
     stack = np.empty(cap + 2, np.int64)
     path = np.empty(width + cap + 8, np.int32)
     flat = np.empty(2 * pairs.shape[0] * (width + 8) + path.shape[0], np.int32)
     begin = np.zeros(2 * pairs.shape[0] + 1, np.int64)
-    most = widest(population)
     failed = 0
     for p in range(pairs.shape[0]):
         shorter = min(length_of(population[pairs[p, 0]]), length_of(population[pairs[p, 1]]))
@@ -64,15 +63,4 @@ def exchange_at_position(
             flat = with_room(flat, begin[k], made)
             copy(flat, begin[k], path, 0, made)
             begin[k + 1] = begin[k] + made
-            most = max(most, made)
-    out = blank(n, most)
-    for k in range(n):
-        copy(out[k], 0, population[k], 0, length_of(population[k]))
-    for k in range(2 * pairs.shape[0]):
-        made = begin[k + 1] - begin[k]
-        if made > 0:
-            row = out[pairs[k // 2, k % 2]]
-            copy(row, 0, flat, begin[k], made)
-            for i in range(made, most):
-                row[i] = -1
-    return out, failed
+    return with_changed(population, pairs.ravel(), flat, begin), failed

@@ -6,34 +6,16 @@ import numpy as np
 
 from pathloom.compiled.directions import DC, DR
 from pathloom.compiled.jit import kernel, part
-from pathloom.compiled.rows import length_of, row_of
+from pathloom.compiled.rows import length_between, length_of, row_of
+from pathloom.compiled.segments import cells_crossed
 
 
 @kernel("f8[::1](i4[:, ::1], i8)")
 def lengths(population, cols):
     """Return the Euclidean length of each path, in cells."""
-    per_row = 1.0 / cols
     found = np.zeros(population.shape[0])
     for k in range(population.shape[0]):
-        straight = diagonal = 0  # counted, so that paths of single steps have the same length in any order
-        total = 0.0
-        r0 = c0 = 0
-        for i in range(population.shape[1]):
-            cell = population[k, i]
-            if cell < 0:
-                break
-            r = row_of(cell, per_row)
-            c = cell - r * cols
-            if i > 0:
-                squared = (r - r0) * (r - r0) + (c - c0) * (c - c0)
-                if squared == 1:
-                    straight += 1
-                elif squared == 2:
-                    diagonal += 1
-                else:
-                    total += math.sqrt(squared)
-            r0, c0 = r, c
-        found[k] = straight + diagonal * math.sqrt(2.0) + total
+        found[k] = length_between(population[k], 0, length_of(population[k]) - 1, cols)
     return found
 
 
@@ -211,38 +193,20 @@ def clearances(population, blocked, distance, rows, cols):
 def flagged_cells(population, flag, cols):
     """Count for each path the distinct cells with a flag whose inside it crosses, both ends included."""
     n = population.shape[0]
+    per_row = 1.0 / cols
     found = np.zeros(n)
     seen = np.zeros(flag.shape[0], np.int32)
+    cells = np.empty(cols + flag.shape[0] // cols, np.int32)
     for k in range(n):
         count = length_of(population[k])
         total = 0
         for i in range(max(count - 1, 1)):
             a = population[k, i]
             b = population[k, min(i + 1, count - 1)]
-            dr, dc = b // cols - a // cols, b % cols - a % cols
-            step_r = cols if dr > 0 else -cols
-            step_c = 1 if dc > 0 else -1
-            if abs(dc) >= abs(dr):
-                extent, m, along, across = abs(dc), abs(dr), step_c, step_r
-            else:
-                extent, m, along, across = abs(dr), abs(dc), step_r, step_c
-            limit = extent + m
-            low = side = 0
-            here = a
-            for _ in range(extent + 1):
-                while limit > 0 and side <= -limit:
-                    low += 1
-                    side += 2 * extent
-                    here += across
-                j, value, cell = low, side, here
-                while j <= m and (value < limit or limit == 0):
-                    if seen[cell] != k + 1:
-                        seen[cell] = k + 1
-                        total += flag[cell]
-                    j += 1
-                    value += 2 * extent
-                    cell += across
-                side -= 2 * m
-                here += along
+            dr = row_of(b, per_row) - row_of(a, per_row)
+            for c in range(cells_crossed(a, dr, b - a - dr * cols, cols, cells)):
+                if seen[cells[c]] != k + 1:
+                    seen[cells[c]] = k + 1
+                    total += flag[cells[c]]
         found[k] = total
     return found

@@ -1,30 +1,9 @@
 """Merging: one path of the shorter parts of two."""
 
-import math
-
 import numpy as np
 
-from pathloom.compiled.jit import kernel, part
-from pathloom.compiled.rows import blank, copy, length_of, remove_loops, row_of, widest
-
-
-@part("f8(i4[::1], i8, i8, i8)")
-def stretch(path, first, last, cols):
-    """Return the length of a path from one of its positions to another."""
-    per_row = 1.0 / cols
-    straight = diagonal = 0
-    total = 0.0
-    for i in range(first, last):
-        dr = row_of(path[i + 1], per_row) - row_of(path[i], per_row)
-        dc = path[i + 1] - path[i] - dr * cols
-        squared = dr * dr + dc * dc
-        if squared == 1:
-            straight += 1
-        elif squared == 2:
-            diagonal += 1
-        else:
-            total += math.sqrt(squared)
-    return straight + diagonal * math.sqrt(2.0) + total
+from pathloom.compiled.jit import kernel
+from pathloom.compiled.rows import blank, copy, length_between, length_of, remove_loops, trimmed, widest
 
 
 @kernel("Tuple((i4[:, ::1], i8))(i4[:, ::1], i8[:, ::1], i8, i8)")
@@ -54,7 +33,7 @@ def merge(population, pairs, cells, cols):
         for there in range(1, k):
             here = place[second[there]] - 1
             if here > i:
-                if stretch(first, i, here, cols) <= stretch(second, j, there, cols):
+                if length_between(first, i, here, cols) <= length_between(second, j, there, cols):
                     copy(child, count, first, i + 1, here - i)
                     count += here - i
                 else:
@@ -64,16 +43,12 @@ def merge(population, pairs, cells, cols):
         for i in range(m):
             place[first[i]] = 0
         count = remove_loops(child, count, mark)
-        one, other = stretch(first, 0, m - 1, cols), stretch(second, 0, k - 1, cols)
+        one, other = length_between(first, 0, m - 1, cols), length_between(second, 0, k - 1, cols)
         worse = pairs[p, 0] if one > other else pairs[p, 1]
-        if stretch(child, 0, count - 1, cols) < max(one, other):
+        if length_between(child, 0, count - 1, cols) < max(one, other):
             copy(out[worse], 0, child, 0, count)
             for i in range(count, out.shape[1]):
                 out[worse, i] = -1
         else:
             failed += 1
-    most = widest(out)
-    trimmed = blank(n, most)
-    for k in range(n):
-        copy(trimmed[k], 0, out[k], 0, most)
-    return trimmed, failed
+    return trimmed(out), failed

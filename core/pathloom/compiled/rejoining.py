@@ -5,7 +5,7 @@ import numpy as np
 from pathloom.compiled.insertion import connect
 from pathloom.compiled.jit import kernel
 from pathloom.compiled.random import below
-from pathloom.compiled.rows import blank, copy, length_of, remove_loops, unpack, widest, with_room
+from pathloom.compiled.rows import copy, length_of, remove_loops, unpack, with_changed, with_room
 
 
 @kernel(
@@ -79,13 +79,12 @@ def mutate_between(
     are cut. A stretch that cannot be joined is drawn again, ``tries`` times in
     all. Returns the population and the number of failures, which keep the parent.
     """
-    n, width = population.shape
+    width = population.shape[1]
     mark = np.zeros(rows * cols, np.int32)
     stack = np.empty(cap + 2, np.int64)
     path = np.empty(width + cap + 8, np.int32)
     flat = np.empty(chosen.shape[0] * (width + 8) + path.shape[0], np.int32)
     begin = np.zeros(chosen.shape[0] + 1, np.int64)
-    most = widest(population)
     failed = 0
     for q in range(chosen.shape[0]):
         row = population[chosen[q]]
@@ -115,14 +114,4 @@ def mutate_between(
         flat = with_room(flat, begin[q], made)
         copy(flat, begin[q], path, 0, made)
         begin[q + 1] = begin[q] + made
-        most = max(most, made)
-    out = blank(n, most)
-    for k in range(n):
-        copy(out[k], 0, population[k], 0, length_of(population[k]))
-    for q in range(chosen.shape[0]):
-        made = begin[q + 1] - begin[q]
-        if made > 0:
-            copy(out[chosen[q]], 0, flat, begin[q], made)
-            for i in range(made, most):
-                out[chosen[q], i] = -1
-    return out, failed
+    return with_changed(population, chosen, flat, begin), failed

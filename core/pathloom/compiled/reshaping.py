@@ -3,7 +3,8 @@
 import numpy as np
 
 from pathloom.compiled.jit import kernel
-from pathloom.compiled.rows import blank, copy, length_of, remove_loops, row_of, unpack, widest, with_room
+from pathloom.compiled.rows import blank, copy, length_of, remove_loops, row_of, trimmed, unpack, widest, with_room
+from pathloom.compiled.segments import cells_crossed
 
 
 @kernel("i4[:, ::1](i4[:, ::1], i8)")
@@ -12,18 +13,12 @@ def without_loops(population, cells):
     n = population.shape[0]
     mark = np.zeros(cells, np.int32)
     out = blank(n, population.shape[1])
-    most = 1
     for k in range(n):
         count = length_of(population[k])
         copy(out[k], 0, population[k], 0, count)
-        kept = remove_loops(out[k], count, mark)
-        for i in range(kept, count):
+        for i in range(remove_loops(out[k], count, mark), count):
             out[k, i] = -1
-        most = max(most, kept)
-    trimmed = blank(n, most)
-    for k in range(n):
-        copy(trimmed[k], 0, out[k], 0, most)
-    return trimmed
+    return trimmed(out)
 
 
 @kernel("i4[:, ::1](i4[:, ::1], i8[::1], i4[:, ::1])")
@@ -56,39 +51,14 @@ def cell_by_cell(population, cols):
     at = 0
     for k in range(n):
         count = length_of(population[k])
-        for i in range(count):
-            flat = with_room(flat, at, 1)
-            flat[at] = population[k, i]
-            at += 1
-            if i == count - 1:
-                break
-            a, b = population[k, i], population[k, i + 1]
+        flat = with_room(flat, at, 1)
+        flat[at] = population[k, 0]
+        at += min(count, 1)
+        for i in range(1, count):
+            a, b = population[k, i - 1], population[k, i]
             dr = row_of(b, per_row) - row_of(a, per_row)
             dc = b - a - dr * cols
-            flat = with_room(flat, at, abs(dr) + abs(dc))
-            step_r = cols if dr > 0 else -cols
-            step_c = 1 if dc > 0 else -1
-            if abs(dc) >= abs(dr):
-                extent, m, along, across = abs(dc), abs(dr), step_c, step_r
-            else:
-                extent, m, along, across = abs(dr), abs(dc), step_r, step_c
-            limit = extent + m
-            low = side = 0
-            here = np.int64(a)
-            for _ in range(extent + 1):
-                while limit > 0 and side <= -limit:
-                    low += 1
-                    side += 2 * extent
-                    here += across
-                j, value, cell = low, side, here
-                while j <= m and value < limit:
-                    if cell not in (a, b):
-                        flat[at] = cell
-                        at += 1
-                    j += 1
-                    value += 2 * extent
-                    cell += across
-                side -= 2 * m
-                here += along
+            flat = with_room(flat, at, abs(dr) + abs(dc) + 1)
+            at += cells_crossed(a, dr, dc, cols, flat[at - 1 :]) - 1  # the first one stands there already
         begin[k + 1] = at
     return unpack(flat, begin, n)

@@ -3,6 +3,8 @@
 Loops instead of slices: they run as fast, and compile many times faster.
 """
 
+import math
+
 import numpy as np
 
 from pathloom.compiled.jit import part
@@ -73,6 +75,64 @@ def unpack(flat, begin, n):
     for k in range(n):
         copy(out[k], 0, flat, begin[k], begin[k + 1] - begin[k])
     return out
+
+
+@part("i4[:, ::1](i4[:, ::1], i8[::1], i4[::1], i8[::1])")
+def with_changed(population, where, flat, begin):
+    """Return the population with path q of those that stand one after the other in row ``where[q]``.
+
+    An empty path leaves its row as it is. The array is as wide as the longest path.
+    """
+    n = population.shape[0]
+    most = widest(population)
+    for q in range(where.shape[0]):
+        most = max(most, begin[q + 1] - begin[q])
+    out = blank(n, most)
+    for k in range(n):
+        copy(out[k], 0, population[k], 0, length_of(population[k]))
+    for q in range(where.shape[0]):
+        made = begin[q + 1] - begin[q]
+        if made > 0:
+            row = out[where[q]]
+            copy(row, 0, flat, begin[q], made)
+            for i in range(made, most):
+                row[i] = -1
+    return out
+
+
+@part("i4[:, ::1](i4[:, ::1])")
+def trimmed(population):
+    """Return the population in an array as wide as its longest path."""
+    n, most = population.shape[0], widest(population)
+    out = blank(n, most)
+    for k in range(n):
+        copy(out[k], 0, population[k], 0, most)
+    return out
+
+
+@part("f8(i4[::1], i8, i8, i8)")
+def length_between(path, first, last, cols):
+    """Return the Euclidean length of a path from one of its positions to another, in cells.
+
+    Single steps are counted, so that paths of them have the same length in any order.
+    """
+    per_row = 1.0 / cols
+    straight = diagonal = 0
+    total = 0.0
+    r0 = row_of(path[first], per_row)
+    for i in range(first + 1, last + 1):
+        r = row_of(path[i], per_row)
+        dr = r - r0
+        dc = path[i] - path[i - 1] - dr * cols
+        squared = dr * dr + dc * dc
+        if squared == 1:
+            straight += 1
+        elif squared == 2:
+            diagonal += 1
+        else:
+            total += math.sqrt(squared)
+        r0 = r
+    return straight + diagonal * math.sqrt(2.0) + total
 
 
 @part("u8(i4[::1], i8)")

@@ -13,7 +13,7 @@ corner; 2 ``strict``, an obstacle may not even be touched.
 import numpy as np
 
 from pathloom.compiled.jit import kernel, part
-from pathloom.compiled.rows import blank, copy, length_of, row_of
+from pathloom.compiled.rows import blank, copy, length_of, row_of, trimmed
 
 
 @part("b1(u1[::1], i8, i8, i8, i8, i8)")
@@ -52,6 +52,38 @@ def segment_free(blocked, cols, a, dr, dc, policy):
     return True
 
 
+@part("i8(i8, i8, i8, i8, i4[::1])")
+def cells_crossed(a, dr, dc, cols, found):
+    """Write the cells whose inside the segment from cell a over (dr, dc) crosses, in order; return how many.
+
+    There is room for them in |dr| + |dc| + 1 entries.
+    """
+    step_r = cols if dr > 0 else -cols
+    step_c = 1 if dc > 0 else -1
+    if abs(dc) >= abs(dr):
+        n, m, along, across = abs(dc), abs(dr), step_c, step_r
+    else:
+        n, m, along, across = abs(dr), abs(dc), step_r, step_c
+    limit = max(n + m, 1)
+    count = low = side = 0
+    here = a
+    for _ in range(n + 1):
+        while side <= -limit:
+            low += 1
+            side += 2 * n
+            here += across
+        j, value, cell = low, side, here
+        while j <= m and value < limit:
+            found[count] = cell
+            count += 1
+            j += 1
+            value += 2 * n
+            cell += across
+        side -= 2 * m
+        here += along
+    return count
+
+
 @kernel("b1[::1](u1[::1], i8, i4[::1], i4[::1], i8)")
 def segments_free(blocked, cols, first, second, policy):
     """Test many segments: first[k] to second[k]."""
@@ -73,7 +105,6 @@ def delete_points(population, blocked, cols, policy, passes):
     n, width = population.shape
     per_row = 1.0 / cols
     out = blank(n, width)
-    most = 1
     for k in range(n):
         count = length_of(population[k])
         row = out[k]
@@ -99,8 +130,4 @@ def delete_points(population, blocked, cols, policy, passes):
             if kept == count:
                 break
             count = kept
-        most = max(most, count)
-    trimmed = blank(n, most)
-    for k in range(n):
-        copy(trimmed[k], 0, out[k], 0, most)
-    return trimmed
+    return trimmed(out)

@@ -12,7 +12,7 @@ import numpy as np
 
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.random import uniform
-from pathloom.compiled.rows import blank, copy, length_of, row_of, with_room
+from pathloom.compiled.rows import blank, length_of, row_of, trimmed, with_room
 from pathloom.compiled.segments import segment_free
 
 UNIT = 4095
@@ -235,7 +235,6 @@ def straightened_paths(population, blocked, cols, policy):
     n, width = population.shape
     per_row = 1.0 / cols
     out = blank(n, width)
-    most = 1
     for k in range(n):
         count = length_of(population[k])
         at = kept = 0
@@ -252,11 +251,7 @@ def straightened_paths(population, blocked, cols, policy):
                     break
                 ahead -= 1
             at = max(ahead, at + 1)
-        most = max(most, kept)
-    trimmed = blank(n, most)
-    for k in range(n):
-        copy(trimmed[k], 0, out[k], 0, most)
-    return trimmed
+    return trimmed(out)
 
 
 @kernel("i4[::1](i8[:, ::1], u1[::1], i8, i8)")
