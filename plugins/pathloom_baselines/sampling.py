@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from pathloom import Count, Population, Problem, Sampling, Share, Whole, compiled, count
-from pathloom.paths.insertion import sample_through
+from pathloom.paths.insertion import or_fallback, sample_through
 from pathloom.paths.lines import lines_between
 from pathloom.paths.pathwise import path_problem
 
@@ -66,10 +66,7 @@ class RandomPerRow(Sampling):
             it, lines_between(it.context), n, rng,
             tries=self.tries, insertions=self.insertions, reach=self.reach, loops=self.loops,
         )  # fmt: skip
-        if len(found) == 0 and self.fallback is not None:
-            count("samples by fallback", n)
-            return self.fallback.sample(problem, n, rng)
-        return found
+        return or_fallback(found, n, self.fallback, problem, rng)
 
 
 @dataclass(frozen=True, kw_only=True)

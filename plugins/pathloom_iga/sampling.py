@@ -5,9 +5,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from pathloom import Count, Population, Problem, Sampling, Whole, count
-from pathloom.paths.context import Cells, Context
-from pathloom.paths.insertion import sample_in_turn
+from pathloom import Count, Population, Problem, Sampling, Whole
+from pathloom.paths.insertion import or_fallback, sample_in_turn
 from pathloom.paths.lines import lines_between
 from pathloom.paths.pathwise import path_problem
 
@@ -47,20 +46,10 @@ class RowWise(Sampling):
     def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
         it = path_problem(problem)
         reached = it.context.component.ravel()
-        lines = lines_between(it.context) if self.lines == "longer" else rows_between(it.context)
-        lines = [line[reached[line]] for line in lines]  # no path leads through the others
+        # no path leads through cells that cannot be reached
+        lines = [line[reached[line]] for line in lines_between(it.context, self.lines)]
         found = sample_in_turn(
             it, lines, n, rng,
             tries=self.tries, redraws=self.redraws, insertions=self.insertions, reach=self.reach, loops=self.loops,
         )  # fmt: skip
-        if len(found) == 0 and self.fallback is not None:
-            count("samples by fallback", n)
-            return self.fallback.sample(problem, n, rng)
-        return found
-
-
-def rows_between(it: Context) -> list[Cells]:
-    """Return the free cells of each row strictly between start and goal, in the order of the way."""
-    first, last = it.start // it.cols, it.goal // it.cols
-    step = 1 if last > first else -1
-    return [np.flatnonzero(~it.occupied[r]).astype(np.int32) + r * it.cols for r in range(first, last, step)][1:]
+        return or_fallback(found, n, self.fallback, problem, rng)

@@ -6,9 +6,9 @@ from typing import Annotated, ClassVar, Literal
 import msgspec
 import numpy as np
 
-from pathloom import Count, Population, Problem, Sampling, Whole, count
+from pathloom import Count, Population, Problem, Sampling, Whole
 from pathloom.kernel.component import MOST
-from pathloom.paths.insertion import sample_through
+from pathloom.paths.insertion import or_fallback, sample_through
 from pathloom.paths.pathwise import path_problem
 from pathloom.paths.problem import PathProblem
 from pathloom_imaga.libraries import libraries
@@ -47,10 +47,7 @@ class RestrictedUniform(Sampling):
         it = path_problem(problem)
         step = self.step if self.prior is None else self.prior.step(self, it, rng)
         found = self.draw(it, n, step, self.tries, rng)
-        if len(found) == 0 and self.fallback is not None:
-            count("samples by fallback", n)
-            return self.fallback.sample(problem, n, rng)
-        return found
+        return or_fallback(found, n, self.fallback, problem, rng)
 
     def draw(self, problem: PathProblem, n: int, step: int, tries: int, rng: np.random.Generator) -> Population:
         """Return n paths whose nodes keep to a step, or none where ``tries`` in a row failed."""

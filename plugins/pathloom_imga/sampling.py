@@ -5,8 +5,8 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from pathloom import Count, Population, Problem, Sampling, Whole, count
-from pathloom.paths.insertion import sample_by_insertion
+from pathloom import Count, Population, Problem, Sampling, Whole
+from pathloom.paths.insertion import or_fallback, sample_by_insertion
 from pathloom.paths.pathwise import path_problem
 
 
@@ -36,7 +36,4 @@ class MedianInsertion(Sampling):
             path_problem(problem), n, rng,
             tries=self.tries, insertions=self.insertions, guarded=guarded, loops=not guarded,
         )  # fmt: skip
-        if len(found) == 0 and self.fallback is not None:
-            count("samples by fallback", n)
-            return self.fallback.sample(problem, n, rng)
-        return found
+        return or_fallback(found, n, self.fallback, problem, rng)

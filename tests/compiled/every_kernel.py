@@ -218,10 +218,10 @@ def _rejoined(it: Context, trees: np.ndarray, library: tuple[np.ndarray, np.ndar
         "nothing to make anew": compiled.rejoining.mutate_between(
             ends_only, chosen[:1], 1, 9, *insertion, 8, 56, True, False, words
         ),
-        "in turn": compiled.rejoining.sample_through(
+        "in turn": compiled.libraries.sample_in_turn(
             4, 30, 6, it.start, it.goal, *library, *insertion, 8, 56, True, False, words
         ),
-        "in turn with loops": compiled.rejoining.sample_through(
+        "in turn with loops": compiled.libraries.sample_in_turn(
             3, 30, 1, it.start, it.goal, *library, *insertion, 4, 56, False, True, words
         ),
     }

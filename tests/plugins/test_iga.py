@@ -28,7 +28,7 @@ from pathloom_iga.migration import ReferencePopulation, stagnation
 from pathloom_iga.mutation import TwoPointMidpoint
 from pathloom_iga.planner import Iga
 from pathloom_iga.probability import SincAdaptive
-from pathloom_iga.sampling import RowWise, rows_between
+from pathloom_iga.sampling import RowWise
 
 EXAMPLE = (1, 12, 23, 36, 47, 59, 70, 80)
 """The paper's individual, fig. 2."""
@@ -66,7 +66,7 @@ def length_of(outcome, problem):
 def test_the_papers_individual_has_a_free_cell_of_each_row_between_its_start_and_its_goal():
     start, *between, goal = map(tuple, labelled(EXAMPLE).tolist())
     problem = map_1(start=start, goal=goal)
-    rows = [{divmod(int(cell), 10) for cell in row} for row in rows_between(problem.context)]
+    rows = [{divmod(int(cell), 10) for cell in row} for row in lines_between(problem.context, "rows")]
     assert len(rows) == len(between) == 6
     assert len(lines_between(problem.context)) == 8  # columns: the goal lies 7 rows up and 9 columns to the right
     assert all(cell in row for cell, row in zip(between, rows, strict=True))

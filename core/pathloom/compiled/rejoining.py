@@ -1,70 +1,11 @@
-"""Rejoining: kernels that join cells by median insertion, and draw again what cannot be joined."""
+"""Rejoining: a stretch cut out of a path and made anew by median insertion."""
 
 import numpy as np
 
 from pathloom.compiled.insertion import connect
 from pathloom.compiled.jit import kernel
 from pathloom.compiled.random import below
-from pathloom.compiled.rows import copy, length_of, remove_loops, unpack, with_changed, with_room
-
-
-@kernel(
-    "Tuple((i4[:, ::1], i8, i8))(i8, i8, i8, i8, i8, i4[::1], i8[::1], u1[::1], u1[::1], i8, i8, i8, i8, i8, i8,"
-    " b1, b1, u8[::1])"
-)
-def sample_through(
-    n, tries, redraws, start, goal, cells, begin, blocked, moves, rows, cols, sign_r, sign_c,
-    reach, cap, guarded, loops, state,
-):  # fmt: skip
-    """Draw n paths start – a random cell of each library – goal, and join each cell as it is drawn.
-
-    Library l is ``cells[begin[l]:begin[l + 1]]``. A cell that cannot be joined to
-    the one before is drawn again, ``redraws`` times in all. Stops after ``tries``
-    failures in a row. Returns the paths, the number of failed tries, and the
-    number of cells drawn again.
-    """
-    libraries = begin.shape[0] - 1
-    room = (libraries + 2) * (cap + 2) + 8
-    path = np.empty(room, np.int32)
-    stack = np.empty(cap + 2, np.int64)
-    mark = np.zeros(rows * cols, np.int32)
-    flat = np.empty(n * 2 * (rows + cols) + room, np.int32)
-    start_of = np.zeros(n + 1, np.int64)
-    found = failed = again = in_a_row = 0
-    while found < n and in_a_row < tries:
-        in_a_row += 1
-        path[0] = here = start
-        count = 1
-        for library in range(libraries + 1):
-            joined = -1
-            for attempt in range(redraws if library < libraries else 1):
-                cell = goal
-                if library < libraries:
-                    cell = np.int64(cells[begin[library] + below(state, begin[library + 1] - begin[library])])
-                again += attempt > 0
-                joined = count
-                if cell != here:
-                    joined = connect(
-                        here, cell, blocked, moves, rows, cols, sign_r, sign_c, reach,
-                        cap, guarded, path, count, stack, state,
-                    )  # fmt: skip
-                if joined >= 0:
-                    here = cell
-                    break
-            count = joined
-            if count < 0:
-                break
-        if count < 0:
-            failed += 1
-            continue
-        if not loops:
-            count = remove_loops(path, count, mark)
-        flat = with_room(flat, start_of[found], count)
-        copy(flat, start_of[found], path, 0, count)
-        start_of[found + 1] = start_of[found] + count
-        found += 1
-        in_a_row = 0
-    return unpack(flat, start_of, found), failed, again
+from pathloom.compiled.rows import copy, length_of, remove_loops, with_changed, with_room
 
 
 @kernel(

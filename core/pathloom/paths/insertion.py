@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pathloom import compiled
 from pathloom.kernel.counting import count
-from pathloom.kernel.operators import Indices
+from pathloom.kernel.operators import Indices, Sampling
+from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
 from pathloom.paths.context import Cells
 from pathloom.paths.problem import PathProblem
@@ -90,9 +92,7 @@ def sample_through(
     it = problem.context
     if it.start == it.goal:
         return np.full((n, 1), it.start, np.int32)
-    filled = [np.asarray(cells, np.int32) for cells in libraries if len(cells)]
-    begin = np.cumsum([0, *map(len, filled)])
-    cells = np.concatenate(filled) if filled else np.empty(0, np.int32)
+    cells, begin = _packed(libraries)
     found, failed = compiled.libraries.sample_from_libraries(
         n, tries, redraws, step, to_goal, it.start, it.goal, cells, begin, it.blocked, it.moves, it.rows, it.cols,
         *it.signs, reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
@@ -101,12 +101,61 @@ def sample_through(
     return _repeated(found, n)
 
 
+def sample_in_turn(
+    problem: PathProblem,
+    libraries: Sequence[Cells],
+    n: int,
+    rng: np.random.Generator,
+    *,
+    tries: int,
+    redraws: int,
+    insertions: int,
+    reach: Literal[4, 8] = 8,
+    guarded: bool = True,
+    loops: bool = False,
+) -> Population:
+    """Draw n paths as `sample_through` does, but join each cell to the one before as soon as it is drawn.
+
+    A cell that cannot be joined is drawn again, up to ``redraws`` draws in all,
+    where `sample_through` begins the whole path again: a path through many
+    libraries has a chance even where a join often fails. What is drawn again is
+    counted.
+    """
+    it = problem.context
+    if it.start == it.goal:
+        return np.full((n, 1), it.start, np.int32)
+    cells, begin = _packed(libraries)
+    found, failed, again = compiled.libraries.sample_in_turn(
+        n, tries, redraws, it.start, it.goal, cells, begin, it.blocked, it.moves, it.rows, it.cols, *it.signs,
+        reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
+    )  # fmt: skip
+    count("samples failed", failed)
+    count("cells drawn again", again)
+    return _repeated(found, n)
+
+
+def _packed(libraries: Sequence[Cells]) -> tuple[Cells, NDArray[np.int64]]:
+    """Return the cells of all libraries that are not empty, and where each begins and the last one ends."""
+    filled = [np.asarray(cells, np.int32) for cells in libraries if len(cells)]
+    return np.concatenate([*filled, np.empty(0, np.int32)]), np.cumsum([0, *map(len, filled)])
+
+
 def _repeated(found: Population, n: int) -> Population:
     """Return n paths: those found, again and again, where there are fewer; none where there is none."""
     if 0 < len(found) < n:
         count("samples repeated", n - len(found))
         return np.ascontiguousarray(found[np.arange(n) % len(found)])
     return np.asarray(found)
+
+
+def or_fallback(
+    found: Population, n: int, fallback: Sampling | None, problem: Problem, rng: np.random.Generator
+) -> Population:
+    """Return the paths found, or, where there is not one, n of the fallback's, which are counted."""
+    if len(found) or fallback is None:
+        return found
+    count("samples by fallback", n)
+    return fallback.sample(problem, n, rng)
 
 
 def mutate_neighbour(
@@ -170,38 +219,3 @@ def mutate_between(
     )  # fmt: skip
     count("mutation failed", failed)
     return changed  # type: ignore[no-any-return]
-
-
-def sample_in_turn(
-    problem: PathProblem,
-    libraries: Sequence[Cells],
-    n: int,
-    rng: np.random.Generator,
-    *,
-    tries: int,
-    redraws: int,
-    insertions: int,
-    reach: Literal[4, 8] = 8,
-    guarded: bool = True,
-    loops: bool = False,
-) -> Population:
-    """Draw n paths as `sample_through` does, but join each cell to the one before as soon as it is drawn.
-
-    A cell that cannot be joined is drawn again, up to ``redraws`` draws in all,
-    where `sample_through` begins the whole path again: a path through many
-    libraries has a chance even where a join often fails. What is drawn again is
-    counted.
-    """
-    it = problem.context
-    if it.start == it.goal:
-        return np.full((n, 1), it.start, np.int32)
-    filled = [np.asarray(cells, np.int32) for cells in libraries if len(cells)]
-    begin = np.cumsum([0, *map(len, filled)])
-    cells = np.concatenate(filled) if filled else np.empty(0, np.int32)
-    found, failed, again = compiled.rejoining.sample_through(
-        n, tries, redraws, it.start, it.goal, cells, begin, it.blocked, it.moves, it.rows, it.cols, *it.signs,
-        reach, insertions or 4 * (it.rows + it.cols), guarded, loops, rng.bit_generator.random_raw(4),
-    )  # fmt: skip
-    count("samples failed", failed)
-    count("cells drawn again", again)
-    return _repeated(found, n)
