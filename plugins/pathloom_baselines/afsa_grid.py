@@ -11,10 +11,8 @@ from pathloom import (
     Count,
     Deme,
     Fidelity,
-    Outcome,
     Positive,
     Problem,
-    Repair,
     Share,
     State,
     Termination,
@@ -71,8 +69,6 @@ class AfsaGrid(Search):
     greed: Share = 0.8
     """Probability that it looks at all of them instead."""
     objectives: Terms = Terms({"length": Length()})
-    refinement: Repair | None = None
-    """Improves the answer at the end."""
     termination: tuple[Termination, ...] = (MaxGenerations(limit=100),)
 
     def start(self, problem: Problem, rng: np.random.Generator) -> ShoalState:
@@ -96,14 +92,8 @@ class AfsaGrid(Search):
         assert isinstance(state, ShoalState), "a state of this planner"
         return bool((state.trails[:, -1] == path_problem(state.problem).context.goal).all()) or super().done(state)
 
-    def result(self, state: State) -> Outcome:
-        best = state.answer
-        if best is None:
-            return Outcome(None, reason=f"none of {self.fish} fish came to the goal")
-        row = best.row
-        if self.refinement is not None:
-            row = self.refinement.apply(row[np.newaxis], state.problem, generator(state.random))[0]
-        return Outcome(row, best)
+    def nothing(self, state: State) -> str:
+        return f"none of {self.fish} fish came to the goal"
 
     def _reached(
         self, before: State, trails: Cells, generation: int, rng: np.random.Generator, counts: dict[str, int],

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom import Count, Fidelity, Outcome, Positive, Problem, Share, State, Termination, Terms, compiled
+from pathloom import Count, Fidelity, Positive, Problem, Share, State, Termination, Terms, compiled
 from pathloom.kernel.counting import count, counting
 from pathloom.kernel.search import Search
 from pathloom.kernel.state import Individual, generator
@@ -128,14 +128,15 @@ class Rrt(Search, PolylinePlanner):
         growing = 0.0 if state.ended else state.samples / self.samples
         return max(super().progress(state), min(1.0, (state.trees + growing) / self.trees))
 
-    def result(self, state: State) -> Outcome:
+    def solution(self, state: State, answer: Individual) -> Row:
         assert isinstance(state, TreeState), "a state of this planner"
-        if state.way is None:
-            tried = f"{state.samples} samples made a tree of {len(state.nodes)} nodes that has not reached the goal"
-            return Outcome(
-                None, reason=tried if state.trees < 2 else f"{state.trees} trees, of the last of which {tried}"
-            )
-        return Outcome(self.path(state.way, path_problem(state.problem)), state.answer)
+        assert state.way is not None, "what the answer was made of"
+        return self.path(state.way, path_problem(state.problem))
+
+    def nothing(self, state: State) -> str:
+        assert isinstance(state, TreeState), "a state of this planner"
+        tried = f"{state.samples} samples made a tree of {len(state.nodes)} nodes that has not reached the goal"
+        return tried if state.trees < 2 else f"{state.trees} trees, of the last of which {tried}"
 
     def polyline(self, state: State) -> Points | None:
         assert isinstance(state, TreeState), "a state of this planner"

@@ -30,7 +30,6 @@ from pathloom.kernel.operators import (
     Selection,
     Survival,
 )
-from pathloom.kernel.planner import Outcome
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
 from pathloom.kernel.search import Search
@@ -92,8 +91,6 @@ class Evolution(Search):
     """The order of the operators within a generation."""
     migration: Migration | None = None
     """Exchange between several populations."""
-    refinement: Repair | None = None
-    """Improves the answer at the end."""
     archive: Archive | None = None
     """Keeps the answer; empty: the fittest individual ever seen is the answer."""
 
@@ -123,15 +120,8 @@ class Evolution(Search):
     def done(self, state: State) -> bool:
         return any(len(deme) == 0 for deme in state.demes) or super().done(state)
 
-    def result(self, state: State) -> Outcome:
-        best = state.answer
-        if best is None:
-            failed = state.counts.get("samples failed", 0)
-            return Outcome(None, reason=f"{self.sampling.name!r} found no first individual in {failed} tries")
-        row = best.row
-        if self.refinement is not None:
-            row = self.refinement.apply(row[np.newaxis], state.problem, generator(state.random))[0]
-        return Outcome(row, best)
+    def nothing(self, state: State) -> str:
+        return f"{self.sampling.name!r} found no first individual in {state.counts.get('samples failed', 0)} tries"
 
     def vary(
         self,

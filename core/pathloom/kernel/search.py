@@ -1,7 +1,7 @@
 """Search: what planners have in common that judge individuals by objectives and remember the best one."""
 
 import time
-from abc import ABC
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,10 +13,11 @@ from pathloom.errors import ConfigError
 from pathloom.kernel.component import Component, members
 from pathloom.kernel.counting import count, total
 from pathloom.kernel.evaluation import Fitness, Floats, Objective, ReciprocalOfSum, Terms, Weighting, measure
-from pathloom.kernel.planner import Planner
+from pathloom.kernel.operators import Repair
+from pathloom.kernel.planner import Outcome, Planner
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
-from pathloom.kernel.state import Deme, Individual, State
+from pathloom.kernel.state import Deme, Individual, State, generator
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +30,8 @@ class Search(Planner, ABC):
     """Rule for the weights, in place of the numbers beside the objectives."""
     fitness: Fitness = ReciprocalOfSum()
     """Makes one number of the objectives' values."""
+    refinement: Repair | None = None
+    """Improves the answer at the end."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -65,6 +68,22 @@ class Search(Planner, ABC):
     def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
         deme = self.evaluate(row[np.newaxis], problem)
         return dict(zip(self.objectives.labels, deme.values[0].tolist(), strict=True)), float(deme.fitness[0])
+
+    def result(self, state: State) -> Outcome:
+        if state.answer is None:
+            return Outcome(None, reason=self.nothing(state))
+        row = self.solution(state, state.answer)
+        if self.refinement is not None:
+            row = self.refinement.apply(row[np.newaxis], state.problem, generator(state.random))[0]
+        return Outcome(row, state.answer)
+
+    def solution(self, state: State, answer: Individual) -> NDArray[Any]:
+        """Return the row that stands for the answer, before refinement."""
+        return answer.row
+
+    @abstractmethod
+    def nothing(self, state: State) -> str:
+        """Say why there is no answer."""
 
     @staticmethod
     def fittest(best: Individual | None, deme: Deme, generation: int) -> Individual | None:

@@ -15,8 +15,6 @@ from pathloom import compiled
 from pathloom.kernel.component import Count, NonNegative
 from pathloom.kernel.counting import count, counting, total
 from pathloom.kernel.evaluation import Floats, Terms
-from pathloom.kernel.operators import Repair
-from pathloom.kernel.planner import Outcome
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.search import Search
 from pathloom.kernel.state import Deme, State, generator
@@ -53,8 +51,6 @@ class Colony(Search):
     """Evaporation and deposit."""
     deadlock: Deadlock = Retreat()
     """What becomes of an ant that finds no cell to go to."""
-    refinement: Repair | None = None
-    """Improves the answer at the end."""
 
     def start(self, problem: Problem, rng: np.random.Generator) -> ColonyState:
         nobody = Deme(np.empty((0, 1), np.int32), np.empty((0, len(self.objectives))), np.empty(0))
@@ -82,15 +78,8 @@ class Colony(Search):
         began = time.perf_counter()
         return self._marched(state, state.generation + 1, generator(state.random), began)
 
-    def result(self, state: State) -> Outcome:
-        best = state.answer
-        if best is None:
-            lost = state.counts.get("ants lost", 0)
-            return Outcome(None, reason=f"none of {lost} ants arrived: each came to a cell with no way on")
-        row = best.row
-        if self.refinement is not None:
-            row = self.refinement.apply(row[np.newaxis], state.problem, generator(state.random))[0]
-        return Outcome(row, best)
+    def nothing(self, state: State) -> str:
+        return f"none of {state.counts.get('ants lost', 0)} ants arrived: each came to a cell with no way on"
 
     def _desire(self, problem: PathProblem) -> Floats:
         """Return η^β, as a share of the largest finite one at its cell, by which no probability is changed."""

@@ -1,7 +1,7 @@
 """Swarms: vectors in [0, 1] that a decoder reads as paths, moved as birds, wolves or fish are said to move."""
 
 from abc import ABC
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from pathloom import compiled
 from pathloom.kernel.component import NonNegative
 from pathloom.kernel.evaluation import Floats, Terms, measure
-from pathloom.kernel.operators import Repair
 from pathloom.kernel.planner import Outcome
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.search import Search
-from pathloom.kernel.state import State, generator
+from pathloom.kernel.state import State
 from pathloom.kernel.termination import MaxGenerations, Termination
 from pathloom.paths.decoding import Decoder, Waypoints, violations
 from pathloom.paths.objectives import Length
@@ -39,8 +38,6 @@ class Swarm(VectorPlanner, Search, ABC):
     """How the first vectors are drawn: around the straight way from start to goal, or anywhere."""
     noise: NonNegative = 0.1
     """Standard deviation of the genes about the straight way."""
-    refinement: Repair | None = None
-    """Improves the answer at the end."""
     termination: tuple[Termination, ...] = (MaxGenerations(limit=500),)
 
     def start(self, problem: Problem, rng: np.random.Generator) -> VectorState:
@@ -48,13 +45,10 @@ class Swarm(VectorPlanner, Search, ABC):
         return super().start(problem, rng)
 
     def result(self, state: State) -> Outcome:
-        found = super().result(state)
-        if found.solution is None:
-            return replace(found, reason=f"{found.reason}{self.decoder.limits}")
-        if self.refinement is None:
-            return found
-        refined = self.refinement.apply(found.solution[np.newaxis], state.problem, generator(state.random))
-        return replace(found, solution=refined[0])
+        return Search.result(self, state)
+
+    def nothing(self, state: State) -> str:
+        return f"{super().nothing(state)}{self.decoder.limits}"
 
     def evaluate_genes(self, genes: Floats, problem: PathProblem) -> tuple[Vectors, NDArray[np.bool_]]:
         paths = self.decoder.decode(genes, problem)

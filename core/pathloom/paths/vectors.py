@@ -175,8 +175,12 @@ class VectorPlanner(Planner, ABC):
 
     def result(self, state: State) -> Outcome:
         if state.answer is None:
-            return Outcome(None, reason=f"no feasible vector among {state.evaluations} evaluations")
+            return Outcome(None, reason=self.nothing(state))
         return Outcome(state.answer.row, state.answer)
+
+    def nothing(self, state: State) -> str:
+        """Say why there is no answer."""
+        return f"no feasible vector among {state.evaluations} evaluations"
 
     def _reached(
         self, before: State, generation: int, vectors: Vectors, memory: Any, judge: Judge,
