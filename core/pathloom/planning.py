@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from pathloom.kernel.compose import compose, freeze
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.registry import default_registry
-from pathloom.kernel.run import check_interrupt, check_seed, run
+from pathloom.kernel.run import Run, check_interrupt, check_seed, run
 from pathloom.kernel.run import iterate as iterate_planner
 from pathloom.kernel.state import Record, State
 from pathloom.paths.cell_paths import Path
@@ -89,60 +90,32 @@ def plan(
         "path_problem": problem,
     }
     if not problem.reachable:
-        (r0, c0), (r1, c1) = problem.ends
-        reason = f"the goal {r1},{c1} cannot be reached from {r0},{c0} under the corner policy {problem.corners!r}"
-        return Result(status="unreachable", reason=reason, **facts)
+        return Result(status="unreachable", reason=_no_way(problem), **facts)
 
-    loaded = [seconds_loading()]
-
-    def seen(state: State) -> None:
-        if len(loaded) == 1:
-            loaded.append(seconds_loading())
-        if watch is not None:
-            watch(state)
-
-    finished = run(problem, composed, seed, time_limit=time_limit, watch=seen)
-    phases = _without_loading(finished.phases, [*loaded, seconds_loading()])
+    finished, phases = _searched(problem, composed, seed, time_limit, watch)
     state, outcome = finished.state, finished.outcome
     path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
-    status: Status = "found" if path is not None else "not-found"
     facts["interrupted"] = finished.interrupted
     polyline, chosen = None, asked_for
     if isinstance(composed, PolylinePlanner) and state is not None:
         polyline, chosen = composed.polyline(state), asked_for or composed.smoothing
-    if path is not None and chosen is not None:
-        try:
-            facts["curve"], fault, phases = _smoothed(problem, chosen, path if polyline is None else polyline, phases)
-            reason = reason or fault
-        except (KeyboardInterrupt, SystemError) as error:  # the path is there already
-            check_interrupt(error)
-            facts["interrupted"] = True
-    facts["budget"] = {
-        "generations": state.generation if state else 0,
-        "evaluations": state.evaluations if state else 0,
-        "seconds": sum(phases.values()) - phases["loading"],
-        "phases": phases,
-        "counts": dict(sorted(state.counts.items())) if state else {},
-    }
+    if path is not None:
+        facts |= _facts_of(path, polyline, problem, composed)
+        if chosen is not None:
+            with _interruptible(facts):
+                facts["curve"], fault, phases = _smoothed(
+                    problem, chosen, path if polyline is None else polyline, phases
+                )
+                reason = reason or fault
     if state is not None:
         facts["history"] = {name: list(getattr(state.history, name)) for name in Record._fields}
-    if path is not None:
-        met = contacts(path, problem)
-        facts["metrics"] = {**metrics(path, problem), "touches": met.touches, "squeezes": met.squeezes}
-        if polyline is not None:
-            long = float(np.hypot(*np.diff(polyline, axis=0).T).sum())
-            facts["metrics"] |= {"polyline_length": long, "polyline_nodes": len(polyline)}
-        row = problem.representation.encode([path])[0]
-        facts["objectives"], facts["fitness"] = composed.fitness_of(row, problem)
-        if problem.grid.origin is not None:
-            facts["world"] = problem.grid.world(path)
+    facts["budget"] = _budget(state, phases)
     if optimum:
-        length = facts["metrics"]["length"] if path is not None else None
-        try:
-            facts["optimum"], facts["gap"] = _references(problem, length)
-        except (KeyboardInterrupt, SystemError) as error:  # the path is there already
-            check_interrupt(error)
-            facts["interrupted"] = True
+        with _interruptible(facts):
+            facts["optimum"], facts["gap"] = _references(
+                problem, facts["metrics"]["length"] if path is not None else None
+            )
+    status: Status = "found" if path is not None else "not-found"
     return Result(status=status, path=path, unrefined=unrefined, reason=reason, **facts)
 
 
@@ -161,6 +134,64 @@ def iterate(
     if isinstance(problem, PathProblem) and not problem.reachable:
         raise ProblemError(f"the goal cannot be reached under the corner policy {problem.corners!r}")
     return iterate_planner(problem, composed, seed)
+
+
+def _no_way(problem: PathProblem) -> str:
+    (r0, c0), (r1, c1) = problem.ends
+    return f"the goal {r1},{c1} cannot be reached from {r0},{c0} under the corner policy {problem.corners!r}"
+
+
+@contextmanager
+def _interruptible(facts: dict[str, Any]) -> Iterator[None]:
+    """Let Ctrl-C end what is done here and no more: the path is there already."""
+    try:
+        yield
+    except (KeyboardInterrupt, SystemError) as error:
+        check_interrupt(error)
+        facts["interrupted"] = True
+
+
+def _searched(
+    problem: PathProblem,
+    planner: Planner,
+    seed: int,
+    time_limit: float | None,
+    watch: Callable[[State], None] | None,
+) -> tuple[Run, dict[str, float]]:
+    """Run the planner; return what it found, and its phases without the loading of kernels."""
+    loaded = [seconds_loading()]
+
+    def seen(state: State) -> None:
+        if len(loaded) == 1:
+            loaded.append(seconds_loading())
+        if watch is not None:
+            watch(state)
+
+    finished = run(problem, planner, seed, time_limit=time_limit, watch=seen)
+    return finished, _without_loading(finished.phases, [*loaded, seconds_loading()])
+
+
+def _facts_of(path: Path, polyline: Points | None, problem: PathProblem, planner: Planner) -> dict[str, Any]:
+    """Return what a result says of a verified path: metrics, objectives, fitness, and where it is in the world."""
+    met = contacts(path, problem)
+    found = {**metrics(path, problem), "touches": met.touches, "squeezes": met.squeezes}
+    if polyline is not None:
+        found["polyline_length"] = float(np.hypot(*np.diff(polyline, axis=0).T).sum())
+        found["polyline_nodes"] = len(polyline)
+    objectives, fitness = planner.fitness_of(problem.representation.encode([path])[0], problem)
+    world = {} if problem.grid.origin is None else {"world": problem.grid.world(path)}
+    return {"metrics": found, "objectives": objectives, "fitness": fitness, **world}
+
+
+def _budget(state: State | None, phases: dict[str, float]) -> dict[str, Any]:
+    """Return what a run took."""
+    return {
+        "generations": state.generation if state else 0,
+        "evaluations": state.evaluations if state else 0,
+        "seconds": sum(phases.values()) - phases["loading"],
+        "phases": phases,
+        "counts": dict(sorted(state.counts.items())) if state else {},
+    }
 
 
 def _verified(problem: PathProblem, solution: Any, found: Any, reason: str) -> tuple[Path | None, Path | None, str]:
