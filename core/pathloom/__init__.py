@@ -36,18 +36,18 @@ if TYPE_CHECKING:
     from pathloom.kernel.representation import Population, Representation
     from pathloom.kernel.state import Deme, State
     from pathloom.kernel.termination import Termination
+    from pathloom.paths.ants.colony import Colony
+    from pathloom.paths.ants.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
     from pathloom.paths.cell_paths import CellPaths, Path
     from pathloom.paths.collision import Collision
-    from pathloom.paths.colony import Colony
     from pathloom.paths.curves import Curve, Smoother
-    from pathloom.paths.decoding import Decoder
     from pathloom.paths.maps import Map, load_map
     from pathloom.paths.numbering import Numbering
     from pathloom.paths.pathwise import PathCrossover, PathMutation, PathObjective, PathRepair, PathSampling
-    from pathloom.paths.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
     from pathloom.paths.problem import PathProblem
-    from pathloom.paths.swarm import Swarm
-    from pathloom.paths.vectors import VectorPlanner, VectorState
+    from pathloom.paths.vectors.decoding import Decoder
+    from pathloom.paths.vectors.planner import VectorPlanner, VectorState
+    from pathloom.paths.vectors.swarm import Swarm
     from pathloom.planning import compose, freeze, iterate, plan
     from pathloom.result import Result
 
@@ -74,16 +74,16 @@ _HOME = {
     "kernel.termination": ("Termination",),
     "paths.cell_paths": ("CellPaths", "Path"),
     "paths.collision": ("Collision",),
-    "paths.colony": ("Colony",),
+    "paths.ants.colony": ("Colony",),
     "paths.curves": ("Curve", "Smoother"),
-    "paths.decoding": ("Decoder",),
+    "paths.vectors.decoding": ("Decoder",),
     "paths.maps": ("Map", "load_map"),
     "paths.numbering": ("Numbering",),
     "paths.pathwise": ("PathCrossover", "PathMutation", "PathObjective", "PathRepair", "PathSampling"),
-    "paths.pheromone": ("ColonyState", "Deadlock", "Heuristic", "InitialPheromone", "PheromoneUpdate"),
+    "paths.ants.pheromone": ("ColonyState", "Deadlock", "Heuristic", "InitialPheromone", "PheromoneUpdate"),
     "paths.problem": ("PathProblem",),
-    "paths.swarm": ("Swarm",),
-    "paths.vectors": ("VectorPlanner", "VectorState"),
+    "paths.vectors.swarm": ("Swarm",),
+    "paths.vectors.planner": ("VectorPlanner", "VectorState"),
     "planning": ("compose", "freeze", "iterate", "plan"),
     "result": ("Result",),
 }  # fmt: skip

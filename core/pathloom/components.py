@@ -8,15 +8,15 @@ from pathloom.kernel.repair import InTurn
 from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, Tournament
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnation, TargetFitness, WallTime
-from pathloom.paths.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
+from pathloom.paths.ants.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
+from pathloom.paths.ants.colony import Colony
 from pathloom.paths.collision import Exact
-from pathloom.paths.colony import Colony
 from pathloom.paths.curves import BSpline, CubicBezier
-from pathloom.paths.decoding import Rows, Waypoints
 from pathloom.paths.deletion import PointDeletion
 from pathloom.paths.loops import LoopRemoval
 from pathloom.paths.objectives import Clearance, Length, ObstaclesBeside, TurnAngle, Turns, UnsafeCells
 from pathloom.paths.tree_seeding import PerturbedTrees
+from pathloom.paths.vectors.decoding import Rows, Waypoints
 
 
 @hookimpl

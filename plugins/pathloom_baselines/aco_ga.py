@@ -24,7 +24,7 @@ from pathloom import (
     count,
 )
 from pathloom.kernel.termination import MaxGenerations
-from pathloom.paths.ant_system import AntSystem
+from pathloom.paths.ants.ant_system import AntSystem
 from pathloom.paths.deletion import PointDeletion
 from pathloom.paths.objectives import Length
 from pathloom.paths.pathwise import path_problem

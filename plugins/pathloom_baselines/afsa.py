@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from pathloom import Count, Fidelity, Floats, Positive, Share, Swarm, Termination
 from pathloom.kernel.termination import MaxGenerations
-from pathloom.paths.vectors import Judge, Vectors, VectorState
+from pathloom.paths.vectors.planner import Judge, Vectors, VectorState
 from pathloom_baselines.swarms import DECODED
 
 

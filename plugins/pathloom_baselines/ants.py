@@ -19,7 +19,7 @@ from pathloom import (
     Termination,
 )
 from pathloom.kernel.termination import MaxGenerations
-from pathloom.paths.ant_system import AntSystem, beyond
+from pathloom.paths.ants.ant_system import AntSystem, beyond
 from pathloom.paths.context import STEPS
 
 DORIGO = (

@@ -25,9 +25,9 @@ from pathloom import (
 )
 from pathloom.kernel.termination import MaxGenerations
 from pathloom.paths.curves import CubicBezier, Points, PolylinePlanner, Smoother
-from pathloom.paths.decoding import violations
 from pathloom.paths.pathwise import path_problem
-from pathloom.paths.vectors import Judge, Vectors
+from pathloom.paths.vectors.decoding import violations
+from pathloom.paths.vectors.planner import Judge, Vectors
 
 STEP = 0.25
 """Cells: distance of the points in which curves are held against the map.

@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from pathloom import Fidelity, Floats, Indices, Swarm
-from pathloom.paths.vectors import Judge, Vectors, VectorState
+from pathloom.paths.vectors.planner import Judge, Vectors, VectorState
 from pathloom_baselines.swarms import DECODED, Frame
 
 

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from pathloom import ConfigError, Fidelity, Floats, NonNegative, Positive, Swarm
-from pathloom.paths.vectors import Judge, Vectors, VectorState
+from pathloom.paths.vectors.planner import Judge, Vectors, VectorState
 from pathloom_baselines.swarms import DECODED
 
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from pathloom import Fidelity, Floats, Indices, Share, Swarm, Whole
 from pathloom.kernel.termination import MaxGenerations
-from pathloom.paths.vectors import Judge, Vectors, VectorState
+from pathloom.paths.vectors.planner import Judge, Vectors, VectorState
 from pathloom_baselines.swarms import DECODED, Frame
 
 EPSILON = 1e-50

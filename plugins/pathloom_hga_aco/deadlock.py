@@ -7,9 +7,9 @@ import msgspec
 import numpy as np
 
 from pathloom import ColonyState, Count, Deadlock, Floats, Whole, compiled, count
+from pathloom.paths.ants.pheromone import Counts
 from pathloom.paths.context import Bytes
 from pathloom.paths.pathwise import path_problem
-from pathloom.paths.pheromone import Counts
 
 Penalty = Annotated[float, msgspec.Meta(gt=0.0, lt=1.0)]
 

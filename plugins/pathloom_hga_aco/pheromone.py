@@ -6,8 +6,8 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from pathloom import ColonyState, Floats, PheromoneUpdate, Population, Positive
-from pathloom.paths.ant_system import Least, max_min_limits
-from pathloom.paths.pheromone import Rate
+from pathloom.paths.ants.ant_system import Least, max_min_limits
+from pathloom.paths.ants.pheromone import Rate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class TwoBest(PheromoneUpdate):
     q: Positive = 1.0
     """Scale of the deposit, in cells; eq. (32) has none."""
     least: Least | Literal["none"] = "chance"
-    """τ_min of the MAX-MIN ant system, with its τ_max = 1 / (ρ D_g): see `pathloom.paths.ant_system.MaxMin`. The paper
+    """τ_min of the MAX-MIN ant system, with its τ_max = 1 / (ρ D_g): see `MaxMin` among the colony's parts. The paper
     names that system, but no limits; ``none``: there are none."""
 
     def deposits(self, state: ColonyState, progress: float) -> tuple[Population, Floats]:

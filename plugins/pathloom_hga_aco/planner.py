@@ -23,7 +23,7 @@ from pathloom import (
 from pathloom.kernel.evaluation import WeightedReciprocals
 from pathloom.kernel.selection import Roulette
 from pathloom.kernel.termination import MaxGenerations
-from pathloom.paths.ant_system import AntSystem, Die
+from pathloom.paths.ants.ant_system import AntSystem, Die
 from pathloom.paths.objectives import Length
 from pathloom_hga_aco.control import FamilyCompetition
 from pathloom_hga_aco.crossover import SinglePointGeneAware

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from pathloom import Colony, Deme, Floats, InitialPheromone, PathProblem, Positive, Share, compiled
-from pathloom.paths.ant_system import Least, share_of_least
+from pathloom.paths.ants.ant_system import Least, share_of_least
 
 
 @dataclass(frozen=True, kw_only=True)

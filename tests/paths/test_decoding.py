@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from naive import examples
 
 import pathloom as pl
-from pathloom.paths.decoding import Rows, Waypoints, violations
 from pathloom.paths.lines import lines_between
+from pathloom.paths.vectors.decoding import Rows, Waypoints, violations
 
 DECODERS = (Rows(), Waypoints(), Waypoints(count=1), Waypoints(count=9))
 

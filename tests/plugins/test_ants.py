@@ -16,7 +16,7 @@ from pathloom.kernel.counting import counting
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import first_generator, run
 from pathloom.kernel.state import Individual
-from pathloom.paths.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
+from pathloom.paths.ants.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
 from pathloom_baselines.aco_ga import AntPaths, ShorterParts
 from pathloom_baselines.ants import InProportion, NoWorseThanMean, StepAndGoalDistance
 

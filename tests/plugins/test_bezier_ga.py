@@ -16,7 +16,7 @@ from pathloom.exact.curves import validate_curve
 from pathloom.kernel.counting import counting
 from pathloom.kernel.run import run
 from pathloom.kernel.termination import MaxGenerations
-from pathloom.paths.vectors import Judge
+from pathloom.paths.vectors.planner import Judge
 from pathloom_baselines.bezier import BezierGa
 
 EMPTY = pl.PathProblem(np.zeros((12, 15), bool), start=(11, 0), goal=(0, 14))

@@ -18,8 +18,8 @@ import pathloom as pl
 from pathloom.kernel.compose import compose
 from pathloom.kernel.run import first_generator, run
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations
-from pathloom.paths.decoding import Waypoints, violations
-from pathloom.paths.vectors import Judge, VectorPlanner, Vectors
+from pathloom.paths.vectors.decoding import Waypoints, violations
+from pathloom.paths.vectors.planner import Judge, VectorPlanner, Vectors
 from pathloom_baselines.afsa import Afsa
 from pathloom_baselines.afsa_grid import AfsaGrid
 from pathloom_baselines.bezier import BezierGa

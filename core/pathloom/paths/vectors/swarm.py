@@ -15,10 +15,10 @@ from pathloom.kernel.problem import Problem
 from pathloom.kernel.search import Search
 from pathloom.kernel.state import State
 from pathloom.kernel.termination import MaxGenerations, Termination
-from pathloom.paths.decoding import Decoder, Waypoints, violations
 from pathloom.paths.objectives import Length
 from pathloom.paths.problem import PathProblem
-from pathloom.paths.vectors import VectorPlanner, Vectors, VectorState
+from pathloom.paths.vectors.decoding import Decoder, Waypoints, violations
+from pathloom.paths.vectors.planner import VectorPlanner, Vectors, VectorState
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,10 +18,10 @@ from pathloom.kernel.evaluation import Floats, Terms
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.search import Search
 from pathloom.kernel.state import Deme, State, generator
-from pathloom.paths.ant_system import AntSystem, GoalDistance, Retreat, Uniform
+from pathloom.paths.ants.ant_system import AntSystem, GoalDistance, Retreat, Uniform
+from pathloom.paths.ants.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
 from pathloom.paths.objectives import Length
 from pathloom.paths.pathwise import path_problem
-from pathloom.paths.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
 from pathloom.paths.problem import PathProblem
 
 

@@ -18,7 +18,7 @@ from pathloom.paths.pathwise import path_problem
 from pathloom.paths.problem import PathProblem
 
 if TYPE_CHECKING:
-    from pathloom.paths.colony import Colony
+    from pathloom.paths.ants.colony import Colony
 
 Rate = Annotated[float, msgspec.Meta(gt=0.0, le=1.0)]
 """A share above zero."""

@@ -10,9 +10,9 @@ from pathloom.kernel.component import NonNegative, Positive
 from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.representation import Population
 from pathloom.kernel.state import Deme
+from pathloom.paths.ants.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
 from pathloom.paths.context import STEPS
 from pathloom.paths.pathwise import path_problem
-from pathloom.paths.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
 from pathloom.paths.problem import PathProblem
 
 DORIGO = "Dorigo, Maniezzo, Colorni 1996"

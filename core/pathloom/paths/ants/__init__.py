@@ -1,0 +1,1 @@
+"""Ants on a grid: pheromone, what draws them, and the colony."""

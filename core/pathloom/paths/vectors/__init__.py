@@ -1,0 +1,1 @@
+"""Vectors of real numbers that stand for paths: decoders, the loop over them, and swarms."""
