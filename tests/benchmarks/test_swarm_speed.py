@@ -45,6 +45,20 @@ def test_swarm_of_100_and_50_iterations(benchmark, problem, name):
 
 
 @pytest.mark.parametrize("name", ["pso", "gwo"])
+def test_ten_iterations_of_ours(benchmark, problem, name):
+    benchmark.group = f"{name}, 100 × {GENERATIONS}, beside mealpy"
+    planner = ours(name, GENERATIONS)
+    benchmark(lambda: list(iterate(problem, planner, 1)))
+
+
+@pytest.mark.parametrize("name", ["pso", "gwo"])
+def test_ten_iterations_of_mealpy(benchmark, problem, name):
+    benchmark.group = f"{name}, 100 × {GENERATIONS}, beside mealpy"
+    method, task = theirs(name, ours(name, GENERATIONS), problem, GENERATIONS)
+    benchmark.pedantic(lambda: method.solve(task, seed=1), rounds=5)
+
+
+@pytest.mark.parametrize("name", ["pso", "gwo"])
 def test_a_generation_is_at_least_fifteen_times_as_fast_as_mealpys(problem, name):
     planner = ours(name, GENERATIONS)
     list(iterate(problem, planner, 0))  # whatever is to be compiled, is
