@@ -10,13 +10,15 @@ if TYPE_CHECKING:
     from pathloom import compiled as compiled
     from pathloom.claims import Bench, Claim, Finding
     from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
-    from pathloom.exact import any_angle_path, octile_path, validate
+    from pathloom.exact import additive_optimum, additive_path, any_angle_path, exact_front, octile_path, validate
+    from pathloom.fronts import ParetoResult
     from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
     from pathloom.kernel.archive import Archive
     from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
     from pathloom.kernel.counting import count
     from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
     from pathloom.kernel.evolution import Control, Evolution
+    from pathloom.kernel.front import Front, FrontPlanner
     from pathloom.kernel.observer import Observer
     from pathloom.kernel.operators import (
         Crossover,
@@ -36,6 +38,8 @@ if TYPE_CHECKING:
     from pathloom.kernel.representation import Population, Representation
     from pathloom.kernel.state import Deme, State
     from pathloom.kernel.termination import Termination
+    from pathloom.multiobjective import pareto
+    from pathloom.paths.additive import Prices
     from pathloom.paths.ants.colony import Colony
     from pathloom.paths.ants.pheromone import ColonyState, Deadlock, Heuristic, InitialPheromone, PheromoneUpdate
     from pathloom.paths.cell_paths import CellPaths, Path
@@ -54,13 +58,15 @@ if TYPE_CHECKING:
 _HOME = {
     "claims": ("Bench", "Claim", "Finding"),
     "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
-    "exact": ("any_angle_path", "octile_path", "validate"),
+    "exact": ("additive_optimum", "additive_path", "any_angle_path", "exact_front", "octile_path", "validate"),
+    "fronts": ("ParetoResult",),
     "grid": ("OccupancyGrid", "full_cell_cover", "write_map"),
     "kernel.archive": ("Archive",),
     "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
     "kernel.counting": ("count",),
     "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),
     "kernel.evolution": ("Control", "Evolution"),
+    "kernel.front": ("Front", "FrontPlanner"),
     "kernel.observer": ("Observer",),
     "kernel.operators": (
         "Crossover", "Indices", "Migration", "Mutation", "Pairing", "Probability", "Repair", "Sampling", "Selection",
@@ -72,8 +78,10 @@ _HOME = {
     "kernel.representation": ("Population", "Representation"),
     "kernel.state": ("Deme", "State"),
     "kernel.termination": ("Termination",),
+    "multiobjective": ("pareto",),
     "paths.cell_paths": ("CellPaths", "Path"),
     "paths.collision": ("Collision",),
+    "paths.additive": ("Prices",),
     "paths.ants.colony": ("Colony",),
     "paths.curves": ("Curve", "Smoother"),
     "paths.vectors.decoding": ("Decoder",),
@@ -112,6 +120,8 @@ __all__ = [
     "Finding",
     "Fitness",
     "Floats",
+    "Front",
+    "FrontPlanner",
     "Heuristic",
     "Indices",
     "InitialPheromone",
@@ -126,6 +136,7 @@ __all__ = [
     "OccupancyGrid",
     "Outcome",
     "Pairing",
+    "ParetoResult",
     "Path",
     "PathCrossover",
     "PathMutation",
@@ -139,6 +150,7 @@ __all__ = [
     "PluginError",
     "Population",
     "Positive",
+    "Prices",
     "Probability",
     "Problem",
     "ProblemError",
@@ -160,16 +172,20 @@ __all__ = [
     "Weighting",
     "Whole",
     "__version__",
+    "additive_optimum",
+    "additive_path",
     "any_angle_path",
     "compiled",
     "compose",
     "count",
+    "exact_front",
     "freeze",
     "full_cell_cover",
     "hookimpl",
     "iterate",
     "load_map",
     "octile_path",
+    "pareto",
     "plan",
     "validate",
     "write_map",

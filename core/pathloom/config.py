@@ -8,21 +8,23 @@ from typing import Any
 
 from pathloom.errors import ConfigError, MapError, PathloomError, ProblemError
 from pathloom.files import neighbour, reason
+from pathloom.fronts.asked import Asked
 from pathloom.grid import OccupancyGrid
 from pathloom.kernel.compose import NONE, build, compose, freeze
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import check_seed
+from pathloom.kernel.termination import WallTime
 from pathloom.naming import closest
 from pathloom.paths.curves import Smoother
 from pathloom.paths.maps import SUFFIXES, load_map
 from pathloom.paths.problem import CORNER_NAMES, PathProblem
 
-DEFAULT_PLANNER = "imga"
+DEFAULT_PLANNER = "loom"
 DEFAULT_MAP = "blocks-30:25%"
 """The map that is planned on when nobody names one."""
 
-SECTIONS = ("problem", "planner", "run")
+SECTIONS = ("problem", "planner", "run", "front")
 RUN = ("seed", "time_limit", "smooth")
 
 
@@ -80,7 +82,7 @@ class ProblemSpec:
 
 @dataclass(frozen=True)
 class Config:
-    """Everything that a run of ``plan`` depends on."""
+    """Everything that a run of ``plan`` or ``pareto`` depends on."""
 
     problem: ProblemSpec = field(default_factory=ProblemSpec)
     planner: Mapping[str, Any] | Planner = field(default_factory=lambda: {"use": DEFAULT_PLANNER})
@@ -88,6 +90,8 @@ class Config:
     time_limit: float | None = None
     smooth: Smoother | None = None
     """What makes a curve of the path; empty: whatever the planner has for it."""
+    front: Asked = field(default_factory=Asked)
+    """What is asked of a front; ``plan`` has no use for it."""
 
     def composed(self) -> "Config":
         """Return the config with its planner built."""
@@ -96,8 +100,8 @@ class Config:
         return replace(self, planner=compose(self.planner))
 
 
-def read_config(path: str | Path) -> Config:
-    """Return the config in a TOML file.
+def read_config(path: str | Path, default_planner: str = DEFAULT_PLANNER) -> Config:
+    """Return the config in a TOML file, with a planner in case that it names none.
 
     Raises
     ------
@@ -118,18 +122,20 @@ def read_config(path: str | Path) -> Config:
     except (ValueError, RecursionError) as error:  # no TOML, no UTF-8, a huge number or a deep nest
         raise ConfigError(f"{text}: no TOML: {' '.join(str(error).split())}") from error
     try:
-        return from_document(document, Path(path).parent)
+        return from_document(document, Path(path).parent, default_planner)
     except PathloomError as error:
         raise type(error)(f"{text}: {error}") from error
 
 
-def from_document(document: Mapping[str, Any], folder: Path | None = None) -> Config:
-    """Return the config in a table with the sections ``problem``, ``planner`` and ``run``.
+def from_document(
+    document: Mapping[str, Any], folder: Path | None = None, default_planner: str = DEFAULT_PLANNER
+) -> Config:
+    """Return the config in a table with the sections ``problem``, ``planner``, ``run`` and ``front``.
 
     ``folder``: what file names of maps are relative to.
     """
     _known("", document, SECTIONS)
-    problem, planner, run = (_table(document, name) for name in SECTIONS)
+    problem, planner, run, front = (_table(document, name) for name in SECTIONS)
     _known("problem", problem, list(ProblemSpec.__dataclass_fields__))
     _known("run", run, RUN)
     try:
@@ -147,12 +153,20 @@ def from_document(document: Mapping[str, Any], folder: Path | None = None) -> Co
         seed = check_seed(run.get("seed", 0))
     except ConfigError as error:
         raise ConfigError(f"run.{error}") from error
-    return Config(spec, {"use": DEFAULT_PLANNER, **planner}, seed, limit, smoother(run.get("smooth"), "run.smooth"))
+    curve = smoother(run.get("smooth"), "run.smooth")
+    return Config(spec, {"use": default_planner, **planner}, seed, limit, curve, Asked.read(front))
 
 
 def smoother(value: Any, where: str) -> Smoother | None:
     """Return the smoother that a name, a table with ``use`` or a component stands for; ``none``: none of its own."""
     return None if value is None or value == NONE else build(Smoother, value, default_registry(), where)
+
+
+def lasting(planner: Planner, time_limit: float | None) -> Planner:
+    """Return an anytime planner with the time limit, if there is one, in place of the termination that it brings."""
+    if time_limit is None or not planner.anytime or planner.termination != type(planner)().termination:
+        return planner
+    return replace(planner, termination=(WallTime(seconds=time_limit),))
 
 
 def frozen(

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from pathloom.compiled.jit import seconds_loading
-from pathloom.config import DEFAULT_PLANNER, frozen, smoother
+from pathloom.config import DEFAULT_PLANNER, frozen, lasting, smoother
 from pathloom.errors import ConfigError, ProblemError
-from pathloom.exact import any_angle_path, contacts, octile_path, validate
+from pathloom.exact import any_angle_search, contacts, octile_path, validate
 from pathloom.exact.curves import validate_curve
 from pathloom.kernel import compose as composition
 from pathloom.kernel.compose import compose, freeze
@@ -52,7 +52,8 @@ def plan(
     seed
         Integer, at least 0. The same seed gives the same path, metrics and history.
     time_limit
-        Seconds after which the best path so far is the answer.
+        Seconds after which the best path so far is the answer. A planner that can
+        always go on, as `loom`, uses them up, unless a termination was set.
     optimum
         Also compute the exact octile and any-angle optima, and the gaps to them.
     smooth
@@ -78,7 +79,7 @@ def plan(
     seed = check_seed(seed)
     if time_limit is not None and not time_limit > 0:
         raise ConfigError(f"time limit: found {time_limit!r}, allowed seconds above 0")
-    composed = composition.compose(planner)
+    composed = lasting(composition.compose(planner), time_limit)
     asked_for = smoother(smooth, "smooth")
     name = map_name or problem.grid.name or "unnamed"
     facts: dict[str, Any] = {
@@ -90,9 +91,9 @@ def plan(
         "path_problem": problem,
     }
     if not problem.reachable:
-        return Result(status="unreachable", reason=_no_way(problem), **facts)
+        return Result(status="unreachable", reason=no_way(problem), **facts)
 
-    finished, phases = _searched(problem, composed, seed, time_limit, watch)
+    finished, phases = searched(problem, composed, seed, time_limit, watch)
     state, outcome = finished.state, finished.outcome
     path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
     facts["interrupted"] = finished.interrupted
@@ -102,16 +103,16 @@ def plan(
     if path is not None:
         facts |= _facts_of(path, polyline, problem, composed)
         if chosen is not None:
-            with _interruptible(facts):
+            with interruptible(facts):
                 facts["curve"], fault, phases = _smoothed(
                     problem, chosen, path if polyline is None else polyline, phases
                 )
                 reason = reason or fault
     if state is not None:
         facts["history"] = {name: list(getattr(state.history, name)) for name in Record._fields}
-    facts["budget"] = _budget(state, phases)
+    facts["budget"] = budget_of(state, phases, finished)
     if optimum:
-        with _interruptible(facts):
+        with interruptible(facts):
             facts["optimum"], facts["gap"] = _references(
                 problem, facts["metrics"]["length"] if path is not None else None
             )
@@ -136,13 +137,13 @@ def iterate(
     return iterate_planner(problem, composed, seed)
 
 
-def _no_way(problem: PathProblem) -> str:
+def no_way(problem: PathProblem) -> str:
     (r0, c0), (r1, c1) = problem.ends
     return f"the goal {r1},{c1} cannot be reached from {r0},{c0} under the corner policy {problem.corners!r}"
 
 
 @contextmanager
-def _interruptible(facts: dict[str, Any]) -> Iterator[None]:
+def interruptible(facts: dict[str, Any]) -> Iterator[None]:
     """Let Ctrl-C end what is done here and no more: the path is there already."""
     try:
         yield
@@ -151,24 +152,24 @@ def _interruptible(facts: dict[str, Any]) -> Iterator[None]:
         facts["interrupted"] = True
 
 
-def _searched(
+def searched(
     problem: PathProblem,
     planner: Planner,
     seed: int,
     time_limit: float | None,
     watch: Callable[[State], None] | None,
 ) -> tuple[Run, dict[str, float]]:
-    """Run the planner; return what it found, and its phases without the loading of kernels."""
-    loaded = [seconds_loading()]
+    """Run the planner; return what it found, and its phases with the loading of kernels as one of its own.
 
-    def seen(state: State) -> None:
-        if len(loaded) == 1:
-            loaded.append(seconds_loading())
-        if watch is not None:
-            watch(state)
+    Kernels are loaded, once even compiled, by whoever first needs them: that is no merit or fault of the planner.
+    """
+    loaded = seconds_loading()
 
-    finished = run(problem, planner, seed, time_limit=time_limit, watch=seen)
-    return finished, _without_loading(finished.phases, [*loaded, seconds_loading()])
+    def clock() -> float:
+        return time.perf_counter() - seconds_loading()
+
+    finished = run(problem, planner, seed, time_limit=time_limit, watch=watch, clock=clock)
+    return finished, {**finished.phases, "loading": seconds_loading() - loaded}
 
 
 def _facts_of(path: Path, polyline: Points | None, problem: PathProblem, planner: Planner) -> dict[str, Any]:
@@ -183,12 +184,14 @@ def _facts_of(path: Path, polyline: Points | None, problem: PathProblem, planner
     return {"metrics": found, "objectives": objectives, "fitness": fitness, **world}
 
 
-def _budget(state: State | None, phases: dict[str, float]) -> dict[str, Any]:
-    """Return what a run took."""
+def budget_of(state: State | None, phases: dict[str, float], finished: Run | None = None) -> dict[str, Any]:
+    """Return what a run took, and when it found its first answer and its last."""
+    found = {} if finished is None else {"seconds_to_first": finished.first, "seconds_to_best": finished.best}
     return {
         "generations": state.generation if state else 0,
         "evaluations": state.evaluations if state else 0,
         "seconds": sum(phases.values()) - phases["loading"],
+        **found,
         "phases": phases,
         "counts": dict(sorted(state.counts.items())) if state else {},
     }
@@ -230,26 +233,14 @@ def _smoothed(
     return None, f"the curve of {chosen.name!r} {fault}; it was dropped", {**phases, **took}
 
 
-def _without_loading(phases: Mapping[str, float], loaded: list[float]) -> dict[str, float]:
-    """Return the phases without the loading of kernels, which becomes a phase of its own.
-
-    Kernels are loaded, once even compiled, by whoever first needs them: that is
-    no merit or fault of the planner. ``loaded``: the clock of loading before the
-    run, after sampling where that was reached, and after the run.
-    """
-    left = dict(phases)
-    shares = {"sampling": loaded[1] - loaded[0], "evolution": loaded[-1] - loaded[1]}
-    for phase, share in shares.items():
-        rest = share
-        for name in (phase, "refinement"):  # what the evolution cannot have taken, the refinement loaded
-            taken = min(rest, left[name])
-            left[name] -= taken
-            rest -= taken
-    return {**left, "loading": sum(shares.values())}
-
-
 def _references(problem: PathProblem, length: float | None) -> tuple[dict[str, float | None], dict[str, float | None]]:
-    found = {"grid": octile_path(problem)[0], "any_angle": any_angle_path(problem)[0]}
+    """Return the optima, where they are known, with what no path is shorter than, and the gaps to them."""
+    known = any_angle_search(problem)
+    found = {
+        "grid": octile_path(problem)[0],
+        "any_angle": known.length if known.proven else math.inf,
+        "any_angle_bound": known.bound,
+    }
     optimum = {name: value if math.isfinite(value) else None for name, value in found.items()}
     return optimum, {name: gap_to(length, best) for name, best in optimum.items()}
 

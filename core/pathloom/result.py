@@ -46,7 +46,10 @@ class Result:
     """Values of the planner's objectives, by label."""
     fitness: float | None = None
     optimum: Mapping[str, float | None] | None = None
-    """``grid``, the octile optimum, and ``any_angle``; ``None`` inside where it was out of reach."""
+    """``grid``, the octile optimum, ``any_angle``, ``None`` where it was out of reach, and ``any_angle_bound``.
+
+    No path is shorter than the last, which is the any-angle optimum itself where that is known.
+    """
     gap: Mapping[str, float | None] | None = None
     """length / optimum − 1."""
     budget: Mapping[str, Any] = field(default_factory=dict)
@@ -84,7 +87,7 @@ class Result:
         document: dict[str, Any] = {"schema": SCHEMA}
         for item in fields(self):
             if item.name != "path_problem":
-                document[item.name] = _plain(getattr(self, item.name))
+                document[item.name] = plain(getattr(self, item.name))
         return document
 
     def to_json(self) -> str:
@@ -138,7 +141,7 @@ class Result:
             unrefined=self.unrefined if self._was_refined() else None,
             curve=self.curve.points if self.curve is not None else None,
             history=self.history,
-            title=f"{self.planner} on {self._map_title()}",
+            title=f"{self.planner} on {map_title(self.problem)}",
             caption=self._caption(),
             resolution=problem.grid.resolution if problem.grid.metric else None,
             dark=dark,
@@ -150,10 +153,6 @@ class Result:
     def _was_refined(self) -> bool:
         return self.path is not None and self.unrefined is not None and not np.array_equal(self.path, self.unrefined)
 
-    def _map_title(self) -> str:
-        name = str(self.problem["map"]).replace("\\", "/").rpartition("/")[2]
-        return name.encode("utf-8", "replace").decode()  # a file's name need not be text
-
     def _caption(self) -> str:
         if not self.found:
             return self.reason
@@ -161,10 +160,18 @@ class Result:
         parts = [f"length {self.length:.4f}", f"{turns} turn{'s' * (turns != 1)}", f"seed {self.seed}"]
         if self.curve is not None:
             parts.insert(1, f"curve {self.curve.length:.4f}")
-        gap = (self.gap or {}).get("any_angle")
-        if gap is not None:
+        gaps = self.gap or {}
+        if (gap := gaps.get("any_angle")) is not None:
             parts.append(f"{100 * gap:.2f} % above the any-angle optimum")
+        elif (gap := gaps.get("any_angle_bound")) is not None:
+            parts.append(f"at most {100 * gap:.2f} % above the any-angle optimum")
         return ", ".join(parts)
+
+
+def map_title(described: Mapping[str, Any]) -> str:
+    """Return the name of a described problem's map without its folder."""
+    name = str(described["map"]).replace("\\", "/").rpartition("/")[2]
+    return name.encode("utf-8", "replace").decode()  # a file's name need not be text
 
 
 def describe_problem(problem: PathProblem, name: str) -> dict[str, Any]:
@@ -198,18 +205,18 @@ def _curve(table: Mapping[str, Any]) -> Curve:
     return Curve(**{**table, "points": points, "max_curvature": math.inf if curvature is None else curvature})
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """Return JSON values only; what JSON cannot say (infinity) becomes null."""
     if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
+        return plain(value.tolist())
     if isinstance(value, Curve):
-        return _plain(vars(value))
+        return plain(vars(value))
     if isinstance(value, np.generic):
-        return _plain(value.item())
+        return plain(value.item())
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, Mapping):
-        return {str(k): _plain(v) for k, v in value.items()}
+        return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(v) for v in value]
+        return [plain(v) for v in value]
     return value

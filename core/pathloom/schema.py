@@ -6,9 +6,10 @@ from typing import Any
 import msgspec
 
 from pathloom.config import ProblemSpec
+from pathloom.fronts.asked import Asked
 from pathloom.kernel.component import Component, Parameter, parameters
 from pathloom.kernel.compose import NONE
-from pathloom.kernel.evaluation import Objective, Terms
+from pathloom.kernel.evaluation import Objective, Terms, Weighting
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import Entry, Registry
 from pathloom.paths.context import POLICIES
@@ -34,7 +35,21 @@ PROBLEM: Schema = {
     "unknown": {"enum": ["occupied", "free"]},
     "threshold": {"type": "integer", "minimum": 0, "maximum": 255},
 }
+FRONT: Schema = {
+    "exact": {"type": "boolean"},
+    "against": {"type": "array", "items": {"$ref": f"#/$defs/{Planner.kind}"}},
+    "runs": {"type": "integer", "minimum": 1},
+    "prefer": {
+        "anyOf": [
+            {"type": "object", "minProperties": 1, "additionalProperties": NUMBER},
+            {"$ref": f"#/$defs/{Weighting.kind}"},
+            {"const": NONE},
+        ]
+    },
+    "reference": {"anyOf": [{"type": "array", "items": {"type": "number"}}, {"const": NONE}]},
+}
 assert PROBLEM.keys() == ProblemSpec.__dataclass_fields__.keys()
+assert FRONT.keys() == Asked.__dataclass_fields__.keys()
 
 
 def schema_of_config(registry: Registry) -> Schema:
@@ -47,6 +62,7 @@ def schema_of_config(registry: Registry) -> Schema:
             {
                 "problem": _table(PROBLEM),
                 "planner": {"$ref": f"#/$defs/{Planner.kind}"},
+                "front": _table(FRONT),
                 "run": _table(
                     {
                         "seed": {"type": "integer", "minimum": 0},
@@ -111,7 +127,8 @@ class _Writer:
             return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
         if parameter.hint is Terms:
             return {"$ref": "#/$defs/terms"}
-        return _of_type(parameter.hint)
+        one = _of_type(parameter.hint)
+        return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
 
     def _terms(self) -> Schema:
         entries = self._of(Objective.kind)

@@ -6,7 +6,8 @@ from typing import Annotated, ClassVar
 import msgspec
 import numpy as np
 
-from pathloom import Floats, NonNegative, Objective, Population, Problem
+from pathloom import Floats, NonNegative, Objective, PathProblem, Population, Problem
+from pathloom.paths.additive import Prices, price_of_turns
 from pathloom.paths.pathwise import path_problem
 
 Price = Annotated[
@@ -27,12 +28,18 @@ class SmoothnessPenalty(Objective):
     """For angles between 91° and 170°, from there down to 46°, and below: on a grid 135°, 90°, 45° and 0°."""
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        before, after, turning = _steps(population, path_problem(problem).context.cols)
+        return self.base + self._penalties(population, path_problem(problem).context.cols)
+
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices(constant=self.base, turn=price_of_turns(self._penalties))
+
+    def _penalties(self, population: Population, cols: int) -> Floats:
+        before, after, turning = _steps(population, cols)
         cross = before[0] * after[1] - before[1] * after[0]
         dot = -(before[0] * after[0] + before[1] * after[1])
         angle = np.degrees(np.arctan2(np.abs(cross), dot))
         which = (angle < 170.0).astype(np.intp) + (angle <= 91.0) + (angle <= 46.0)
-        return np.asarray(self.base + np.array([0.0, *self.price])[which].sum(axis=1, where=turning))
+        return np.asarray(np.array([0.0, *self.price])[which].sum(axis=1, where=turning))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,10 +59,16 @@ class SmoothD2Legacy(Objective):
     """For squared distances between 4 and 8, from there down to more than 1, and up to 1."""
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        before, after, inside = _steps(population, path_problem(problem).context.cols)
+        return self.base + self._penalties(population, path_problem(problem).context.cols)
+
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices(constant=self.base, turn=price_of_turns(self._penalties))
+
+    def _penalties(self, population: Population, cols: int) -> Floats:
+        before, after, inside = _steps(population, cols)
         squared = (before[0] + after[0]) ** 2 + (before[1] + after[1]) ** 2
         which = (squared < 8).astype(np.intp) + (squared <= 4) + (squared <= 1)
-        return np.asarray(self.base + np.array([0.0, *self.price])[which].sum(axis=1, where=inside))
+        return np.asarray(np.array([0.0, *self.price])[which].sum(axis=1, where=inside))
 
 
 Steps = tuple[np.ndarray, np.ndarray]

@@ -6,7 +6,8 @@ from typing import Annotated, ClassVar, Literal
 import msgspec
 import numpy as np
 
-from pathloom import Floats, NonNegative, Objective, Population, Problem, compiled
+from pathloom import Floats, NonNegative, Objective, PathProblem, Population, Problem, compiled
+from pathloom.paths.additive import Prices, price_of_turns
 from pathloom.paths.pathwise import path_problem
 
 Price = Annotated[
@@ -38,10 +39,15 @@ class AngleTablePenalty(Objective):
     """What a path without a turn costs. With 0 eq. (25) divides by zero, unless the fitness has a floor."""
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        cols = path_problem(problem).context.cols
+        return self.base + self._penalties(population, path_problem(problem).context.cols)
+
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices(constant=self.base, turn=price_of_turns(self._penalties))
+
+    def _penalties(self, population: Population, cols: int) -> Floats:
         if self.reading == "as-printed":
-            return self.base + self._as_printed(population, cols)
-        return np.asarray(self.base + compiled.angles.included_angles(population, cols) @ np.array(self.price))
+            return self._as_printed(population, cols)
+        return np.asarray(compiled.angles.included_angles(population, cols) @ np.array(self.price))
 
     def _as_printed(self, population: Population, cols: int) -> Floats:
         row, col = np.divmod(population.astype(np.int64), cols)
@@ -60,7 +66,7 @@ class MeanTurnAngle(Objective):
     """Eqs. (17) and (18): the sum of all turns over the number of steps, in radians.
 
     Eq. (17) as printed takes π less each turn, which is greatest straight on, and
-    ends one node too late.
+    ends one node too late. Not additive: it is a mean.
     """
 
     source: ClassVar[str] = "Song et al. 2021, section 5.1, eqs. (17) and (18)"

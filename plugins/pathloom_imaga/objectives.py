@@ -5,7 +5,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from pathloom import Floats, NonNegative, Objective, Population, Problem, compiled
+from pathloom import Floats, NonNegative, Objective, PathProblem, Population, Problem, compiled
+from pathloom.paths.additive import Prices
 from pathloom.paths.objectives import Turns
 from pathloom.paths.pathwise import path_problem
 
@@ -25,6 +26,9 @@ class D4ObstacleCount(Objective):
         # eq. (14) sums to k - 1: the last node is left out
         return np.asarray(compiled.measures.sum_over_nodes(population, table, 0, 1))
 
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices.of_leaving(problem.context.neighbours(4, self.border), problem)
+
 
 @dataclass(frozen=True, kw_only=True)
 class TurnCount(Turns):
@@ -39,6 +43,7 @@ class EnergyPerLength(Objective):
 
     The weights are printed as 1 − ω and ω. No ω in [0, 1] gives the energies of
     tables 1 and 2; (T + D) / D does, to the third decimal, and is the default.
+    Not additive: it is a ratio.
     """
 
     source: ClassVar[str] = "Zhang et al. 2023, section 2.2, eq. (16)"

@@ -6,7 +6,8 @@ from typing import Annotated, ClassVar, Literal
 import msgspec
 import numpy as np
 
-from pathloom import Floats, NonNegative, Objective, Population, Problem, compiled
+from pathloom import Floats, NonNegative, Objective, PathProblem, Population, Problem, compiled
+from pathloom.paths.additive import HEADINGS, Prices
 from pathloom.paths.pathwise import path_problem
 
 
@@ -22,10 +23,16 @@ class UnsafeNode(Objective):
     """The text says that the value "is increased by 5": once for the node, or for each obstacle beside it."""
 
     def measure(self, population: Population, problem: Problem) -> Floats:
-        it = path_problem(problem).context
-        table = it.unsafe if self.per == "node" else it.obstacles_near
         # eq. (6) sums to n - 1: the last node is left out
-        return np.asarray(self.penalty * compiled.measures.sum_over_nodes(population, table, 0, 1))
+        found = compiled.measures.sum_over_nodes(population, self._table(path_problem(problem)), 0, 1)
+        return np.asarray(self.penalty * found)
+
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices.of_leaving(self.penalty * self._table(problem), problem)
+
+    def _table(self, problem: PathProblem) -> np.ndarray:
+        it = problem.context
+        return it.unsafe if self.per == "node" else it.obstacles_near
 
 
 Price = Annotated[tuple[float, float, float], msgspec.Meta(description="a price for each of three classes")]
@@ -56,3 +63,24 @@ class QuadrantEnergy(Objective):
         return np.asarray(
             compiled.measures.quadrant_energy(population, it.cols, it.goal, *it.signs, np.array(self.price), by_angle)
         )
+
+    def prices(self, problem: PathProblem) -> Prices | None:
+        """Return prices of turns by their new direction, ``None`` if one is negative.
+
+        Classes by angle depend on where the goal lies: cells that see it in the same octant make a zone.
+        """
+        if min(self.price) < 0.0:
+            return None
+        it = problem.context
+        changed = 1.0 - np.eye(8)
+        if not (it.aligned or self.by_angle == "always"):
+            forward = HEADINGS * it.signs
+            which = np.where((forward >= 0).all(axis=1), 0, np.where((forward <= 0).all(axis=1), 2, 1))
+            return Prices(turn=changed * np.array(self.price)[which])
+        row, col = np.divmod(np.arange(it.blocked.size), it.cols)
+        to_r, to_c = it.goal // it.cols - row[:, np.newaxis], it.goal % it.cols - col[:, np.newaxis]
+        cross = np.abs(HEADINGS[:, 0] * to_c - HEADINGS[:, 1] * to_r)
+        dot = HEADINGS[:, 0] * to_r + HEADINGS[:, 1] * to_c
+        which = np.where(dot >= cross, 0, np.where(-dot <= cross, 1, 2))  # (cells, 8)
+        _, first, zone = np.unique(which @ 3 ** np.arange(8), return_index=True, return_inverse=True)
+        return Prices(turn=changed * np.array(self.price)[which[first]][:, np.newaxis], zone=zone)

@@ -129,5 +129,5 @@ def wall(folder: Path) -> str:
 
 def timeless(document: dict[str, Any]) -> dict[str, Any]:
     """Return a document of ``plan`` without what a clock says."""
-    budget = {k: v for k, v in document["budget"].items() if k not in ("seconds", "phases")}
+    budget = {k: v for k, v in document["budget"].items() if k != "phases" and not k.startswith("seconds")}
     return {**document, "budget": budget}

@@ -61,14 +61,14 @@ def test_start_and_goal_in_one_cell_are_a_path_of_length_0(cli, ring) -> None:
     assert (done.code, done.err) == (0, "")
     assert done.document["path"] == [[0, 0]]
     assert done.document["metrics"]["length"] == 0.0
-    assert done.document["gap"] == {"grid": 0.0, "any_angle": 0.0}
+    assert done.document["gap"] == {"grid": 0.0, "any_angle": 0.0, "any_angle_bound": 0.0}
 
 
 PLANNER = {
     "--planner imgaa": "--planner: no planner is called 'imgaa'; did you mean 'imga/imga'?",
     "--planner agac/imga": "no plugin is called 'agac'; did you mean 'agacd'?",
     "--planner roulette": "'roulette' is a selection, not a planner",
-    "--set selektion=roulette": "'imga/imga' has no such slot or parameter; did you mean 'selection'?",
+    "--set selektion=roulette": "'loom/loom' has no such slot or parameter; did you mean 'selection'?",
     "--set selection=roulete": "no selection is called 'roulete'; did you mean 'roulette'?",
     "--set selection=imga/three-leyer": "did you mean 'imga/three-layer'?",
     "--set selection=none": "no selection is called 'none'",

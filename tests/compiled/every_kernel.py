@@ -8,7 +8,7 @@ import numpy as np
 
 from pathloom import PathProblem, compiled
 from pathloom.compiled import random
-from pathloom.paths.context import Context
+from pathloom.paths.context import STEPS, Context
 from pathloom.paths.lines import lines_between
 
 ROOM = """
@@ -28,11 +28,17 @@ def results() -> dict[str, list]:
         problem = PathProblem(blocked, start=(4, 0), goal=(0, 8), corners=corners)
         for name, value in _results(problem).items():
             parts = value if isinstance(value, tuple) else (value,)
-            found[f"{name}, {corners}"] = [part.tolist() if hasattr(part, "tolist") else int(part) for part in parts]
+            found[f"{name}, {corners}"] = [_plain(part) for part in parts]
     for name, value in _oddities().items():
         parts = value if isinstance(value, tuple) else (value,)
-        found[name] = [part.tolist() if hasattr(part, "tolist") else int(part) for part in parts]
+        found[name] = [_plain(part) for part in parts]
     return found
+
+
+def _plain(part: object) -> object:
+    if hasattr(part, "tolist"):
+        return part.tolist()
+    return part if isinstance(part, float) else int(part)
 
 
 def _oddities() -> dict[str, object]:
@@ -50,19 +56,26 @@ def _oddities() -> dict[str, object]:
     extremes = np.array([0.5, math.inf, 0.0])
     in_halves = np.array([0, 1, 2], np.int64)
     open_room = PathProblem(np.zeros((3, 3), bool)).context
+    comb = np.zeros((4, 150), np.uint8)  # more gaps side by side than buffers have room for at first
+    comb[1, 1::2] = 1
+    comb = comb.ravel()
     return {
         "no way": compiled.search.octile_path(split.moves, 3, 0, 2),
-        "no straight way": compiled.search.any_angle_path(split.blocked, 3, 0, 2, 2, np.zeros(3), np.zeros(3), math.inf, 99),
-        "too little work": compiled.search.any_angle_path(np.zeros(9, np.uint8), 3, 6, 2, 2, np.zeros(9), np.zeros(9), 9.0, 1),
+        "no straight way": compiled.any_angle.any_angle_path(split.blocked, 3, 0, 2, 2, np.zeros(3), np.zeros(3), math.inf, 99),
+        "too little work": compiled.any_angle.any_angle_path(np.zeros(9, np.uint8), 3, 6, 2, 2, np.zeros(9), np.zeros(9), 9.0, 1),
+        "nothing so short": compiled.any_angle.any_angle_path(np.zeros(9, np.uint8), 3, 6, 2, 2, np.full(9, 2.0), np.full(9, 2.0), 3.0, 9),
+        "a long look": compiled.sight.cells_in_sight(comb, 150, 74, 0),
+        "ways past a comb": compiled.taut.distances(comb, 150, 74, 599, 0, math.inf, True),
+        "no way in the plane": compiled.taut.distances(split.blocked, 3, 0, 2, 0, math.inf, False),
         "nothing inserted": compiled.insertion.sample_by_insertion(2, 3, 0, 2, nothing, *insertion, 4, 16, True, False, words),
         "nothing beside": compiled.insertion.sample_by_insertion(
             2, 3, 0, 3, nothing, squeeze.blocked, squeeze.moves, 2, 2, 1, 1, 8, 16, True, False, words
         ),
         "no walk": compiled.walks.sample_by_walking(2, 5, 0, 2, split.moves, 3, words),
-        "long": compiled.search.sample_from_trees(
-            40, long.moves, 20, long.start, long.goal, long.reachable_cells, 1.0, 2.0, words
+        "long": compiled.seeding.sample_from_trees(
+            40, 3, long.moves, 20, long.start, long.goal, long.reachable_cells, 1.0, 2.0, words
         ),
-        "one cell": compiled.search.sample_from_trees(2, long.moves, 20, 7, 7, long.reachable_cells, 1.0, 2.0, words),
+        "one cell": compiled.seeding.sample_from_trees(2, 1, long.moves, 20, 7, 7, long.reachable_cells, 1.0, 2.0, words),
         "nothing in common": compiled.exchange.exchange_tails(apart, np.array([[0, 1]]), 9, False, words),
         "nothing in common, beside each other": compiled.crossing.cross_where_shortest(
             np.array([[0, 1, 2, 5, 8], [0, 3, 6, 7, 8]], np.int32), np.array([[0, 1]]), open_room.moves, 3, 2, True, words
@@ -115,8 +128,8 @@ def _results(problem: PathProblem) -> dict[str, object]:
     it = problem.context
     insertion = (it.blocked, it.moves, it.rows, it.cols, *it.signs)
     words = np.array([1, 2**40 + 3, 2**63 + 5, 7], np.uint64)  # goes on from kernel to kernel
-    trees = compiled.search.sample_from_trees(
-        4, it.moves, it.cols, it.start, it.goal, it.reachable_cells, 1.0, 1.5, words
+    trees = compiled.seeding.sample_from_trees(
+        4, 1, it.moves, it.cols, it.start, it.goal, it.reachable_cells, 1.0, 1.5, words
     )
     inserted = compiled.insertion.sample_by_insertion(
         3, 30, it.start, it.goal, it.reachable_cells, *insertion, 8, 56, True, False, words
@@ -139,11 +152,13 @@ def _results(problem: PathProblem) -> dict[str, object]:
     before, after = (np.hypot(row - end // it.cols, col - end % it.cols) for end in (it.start, it.goal))
     return {
         "uniform": np.array([random.uniform(words) for _ in range(3)]),
-        "tree": compiled.search.tree(it.moves, np.empty(0, np.float32), it.cols, it.start),
         "octile path": compiled.search.octile_path(it.moves, it.cols, it.start, it.goal),
-        "any-angle path": compiled.search.any_angle_path(
+        "any-angle path": compiled.any_angle.any_angle_path(
             it.blocked, it.cols, it.start, it.goal, it.policy, before, after, math.inf, 10**6
         ),
+        "cells in sight": compiled.sight.cells_in_sight(it.blocked, it.cols, it.start, it.policy),
+        "ways in the plane": compiled.taut.distances(it.blocked, it.cols, it.start, it.goal, it.policy, math.inf, True),
+        "the way in the plane": compiled.taut.distances(it.blocked, it.cols, it.start, it.goal, it.policy, 40.0, False),
         "trees": trees,
         "inserted": inserted,
         "inserted as printed": printed,
@@ -169,6 +184,10 @@ def _results(problem: PathProblem) -> dict[str, object]:
         "newcomers": compiled.identity.newcomers(np.concatenate((trees, trees)), trees[:1]),
         "free": compiled.segments.segments_free(it.blocked, it.cols, *pairs_of_ends, it.policy),
         "shortened": shorter,
+        "pulled": compiled.tightening.pulled(trees, it.blocked, it.cols, it.policy, 3),
+        "through the band": compiled.tightening.through_band(trees, it.blocked, it.cols, it.policy, 2, 3),
+        "pooled": compiled.pooling.pooled(trees, np.arange(len(trees)), it.blocked, it.cols, it.policy, 1, 500),
+        "pooled in little room": compiled.pooling.pooled(trees, np.arange(4), it.blocked, it.cols, it.policy, 2, 3),
         "clearances": compiled.measures.clearances(trees, it.blocked, it.distance, it.rows, it.cols),
         "flagged": compiled.measures.flagged_cells(trees, it.unsafe, it.cols),
         "through libraries": compiled.libraries.sample_from_libraries(
@@ -181,6 +200,7 @@ def _results(problem: PathProblem) -> dict[str, object]:
         "cell by cell": compiled.reshaping.cell_by_cell(shorter, it.cols),
         **_trials(it, trees, pairs, chosen, words),
         **_rejoined(it, trees, library),
+        **_priced(it, trees),
         **_grown(it, trees, words),
         **_ants(it, trees, pairs, chosen),
         **_smoothed(it),
@@ -225,6 +245,47 @@ def _rejoined(it: Context, trees: np.ndarray, library: tuple[np.ndarray, np.ndar
             3, 30, 1, it.start, it.goal, *library, *insertion, 4, 56, False, True, words
         ),
     }
+
+
+def _priced(it: Context, trees: np.ndarray) -> dict[str, object]:
+    """Return the cheapest walks and the fronts under prices of every shape, and what paths cost."""
+    cells = it.blocked.size
+    step, turn = np.hypot(*np.array(STEPS).T)[np.newaxis], 1.0 - np.eye(8)[np.newaxis]
+    by_cell, zone = np.arange(8.0 * cells).reshape(cells, 8) % 5, (np.arange(cells) % 2).astype(np.int32)
+    no_turn, no_cell, no_zone = np.zeros((1, 8, 8)), np.empty(0), np.empty(0, np.int32)
+    found: dict[str, object] = {}
+    for name, tables in {
+        "steps": (step, no_cell, no_turn, no_zone),
+        "turns and cells": (step, it.unsafe.astype(float), 2.0 * turn, no_zone),
+        "steps by cell and turns by zone": (by_cell, no_cell, np.concatenate((turn, 3.0 * turn)), zone),
+    }.items():
+        found[f"price of {name}"] = compiled.headings.price(trees, it.cols, *tables)
+        found[f"cheapest by {name}"] = compiled.headings.cheapest(it.moves, it.cols, it.start, it.goal, *tables)
+    found["price of long steps"] = np.isnan(compiled.headings.price(np.array([[0, 9, 13]], np.int32), it.cols, *tables))
+    found["cheapest nowhere"] = compiled.headings.cheapest(it.moves, it.cols, it.start, it.start, *tables)
+    found["no way at any price"] = compiled.headings.cheapest(0 * it.moves, it.cols, it.start, it.goal, *tables)
+    words = np.array([4, 2**33 + 7, 2**62 + 1, 5], np.uint64)
+    for goal, way in ((it.goal, "to the goal"), (it.start, "nowhere")):
+        found[f"along priced trees {way}"] = compiled.priced.sample_from_priced_trees(
+            3, it.moves, it.cols, it.start, goal, *tables, 1.0, 1.5, words
+        )
+    found["along priced trees without a way"] = compiled.priced.sample_from_priced_trees(
+        3, 0 * it.moves, it.cols, it.start, it.goal, *tables, 1.0, 1.5, words
+    )
+    turns = np.stack((np.zeros((1, 8, 8)), turn, np.zeros((1, 8, 8))))
+    both = np.stack((step + 4.0 * (step > 1.0), 0.0 * step, 0.0 * step)).round()
+    price = np.stack((np.zeros(cells), np.zeros(cells), it.unsafe.astype(float)))
+    across = np.ascontiguousarray(np.moveaxis((turns[:, :, :, np.newaxis] - turns[:, :, np.newaxis]).max(-1), 0, -1))
+    for name, goal, limit in (("front", it.goal, 9999), ("no front", it.start, 9), ("too few labels", it.goal, 9)):
+        found[name] = compiled.fronts.front(
+            it.moves, it.cols, it.start, goal, both, price, turns, across, no_zone, limit
+        )
+    zones = np.concatenate((turns, 2.0 * turns), axis=1)
+    apart = np.full((2, 8, 8, 3), math.inf)
+    found["front in zones"] = compiled.fronts.front(
+        it.moves, it.cols, it.start, it.goal, np.repeat(both, cells, axis=1), np.zeros((3, 0)), zones, apart, zone, 9999
+    )
+    return found
 
 
 def _ants(it: Context, trees: np.ndarray, pairs: np.ndarray, chosen: np.ndarray) -> dict[str, object]:

@@ -6,56 +6,9 @@ import naive
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 from naive import POLICIES, examples
 
 from pathloom import PathProblem, compiled
-
-
-def plain_tree(problem: PathProblem, price: np.ndarray | None = None):
-    it = problem.context
-    return compiled.search.tree(it.moves, np.empty(0, np.float32) if price is None else price, it.cols, it.start)
-
-
-@given(problem=naive.problems())
-@examples(60)
-def test_the_tree_holds_the_distance_of_every_cell(problem: PathProblem) -> None:
-    blocked = problem.context.occupied
-    expected = naive.octile_distances(blocked, problem.start, problem.corners)
-    distance, _ = plain_tree(problem)
-    for k, found in enumerate(distance.tolist()):
-        assert found == pytest.approx(expected.get(divmod(k, blocked.shape[1]), math.inf), rel=1e-12)
-
-
-@given(problem=naive.problems(max_side=6), data=st.data())
-@examples(60)
-def test_a_step_costs_its_length_times_the_mean_price_of_its_cells(problem: PathProblem, data) -> None:
-    blocked = problem.context.occupied
-    eighths = data.draw(st.lists(st.integers(8, 24), min_size=blocked.size, max_size=blocked.size))
-    price = np.array(eighths, np.float32) / np.float32(8)
-
-    def edges(cell):
-        for _, there in naive.legal_steps(blocked, cell, problem.corners):
-            mean = (price.reshape(blocked.shape)[cell] + price.reshape(blocked.shape)[there]) / 2
-            yield there, math.dist(cell, there) * float(mean)
-
-    expected = naive.dijkstra(problem.start, edges)
-    distance, _ = plain_tree(problem, price)
-    for k, found in enumerate(distance.tolist()):
-        assert found == pytest.approx(expected.get(divmod(k, blocked.shape[1]), math.inf), rel=1e-12)
-
-
-@given(problem=naive.problems())
-@examples(60)
-def test_parents_lead_back_to_the_root_one_step_at_a_time(problem: PathProblem) -> None:
-    it = problem.context
-    distance, parent = plain_tree(problem)
-    assert parent[it.start] == -1
-    for cell in np.flatnonzero(np.isfinite(distance)).tolist():
-        if cell != it.start:
-            step = math.dist(divmod(cell, it.cols), divmod(int(parent[cell]), it.cols))
-            assert distance[cell] == pytest.approx(distance[parent[cell]] + step)
-    assert (parent[np.isinf(distance)] == -1).all()
 
 
 @given(problem=naive.problems())
@@ -74,42 +27,10 @@ def test_the_octile_path_is_legal_and_as_short_as_its_twin(problem: PathProblem)
     assert naive.length(path) == pytest.approx(best, abs=1e-9)
 
 
-def any_angle(problem: PathProblem, work: int = 10**9):
-    """Search with the plainest bounds there are: straight lines, and no known path."""
-    it = problem.context
-    row, col = np.divmod(np.arange(it.blocked.size), it.cols)
-    before, after = (np.hypot(row - end // it.cols, col - end % it.cols) for end in (it.start, it.goal))
-    return compiled.search.any_angle_path(
-        it.blocked, it.cols, it.start, it.goal, it.policy, before, after, math.inf, work
-    )
-
-
-@given(problem=naive.problems(max_side=6))
-@examples(60)
-def test_the_any_angle_path_is_free_and_as_short_as_its_twin(problem: PathProblem) -> None:
-    it = problem.context
-    cells, _ = any_angle(problem)
-    best = naive.any_angle_distances(it.occupied, problem.start, problem.corners).get(problem.goal)
-    if best is None:
-        assert len(cells) == 0
-        return
-    path = tuple(divmod(cell, it.cols) for cell in cells.tolist())
-    assert (path[0], path[-1]) == problem.ends
-    assert naive.path_free(it.occupied, path, problem.corners)
-    assert naive.length(path) == pytest.approx(best, abs=1e-9)
-
-
-def test_the_any_angle_search_stops_when_its_work_is_done() -> None:
-    problem = PathProblem(np.zeros((9, 9), bool))
-    _, needed = any_angle(problem)
-    assert any_angle(problem, needed)[0].tolist() == [72, 8]
-    assert any_angle(problem, 3)[0].tolist() == []
-
-
 def from_trees(problem: PathProblem, n: int, state: list[int], spread: float = 1.0, detour: float = 1.5) -> np.ndarray:
     it = problem.context
-    return compiled.search.sample_from_trees(
-        n, it.moves, it.cols, it.start, it.goal, it.reachable_cells, spread, detour, np.array(state, np.uint64)
+    return compiled.seeding.sample_from_trees(
+        n, 1, it.moves, it.cols, it.start, it.goal, it.reachable_cells, spread, detour, np.array(state, np.uint64)
     )
 
 

@@ -84,8 +84,8 @@ def test_an_empty_map_is_crossed_in_one_segment() -> None:
 
 
 def test_too_little_work_finds_nothing() -> None:
-    problem = pl.PathProblem(np.zeros((9, 9), bool))
-    assert pl.any_angle_path(problem, work=1) == (math.inf, None)
+    problem = pl.PathProblem(pl.load_map("random-20:75:s3"))
+    assert pl.any_angle_path(problem, work=100) == (math.inf, None)
 
 
 def test_a_point_between_two_obstacles_that_share_a_corner_is_passed_under_allow_only() -> None:

@@ -39,8 +39,18 @@ GOLDEN = {  # length, turns, generations, evaluations
     ("ga-hga-aco", "random-20:75:s3", "strict", 0): (31.556349, 12, 100, 6056),
     ("hga-aco", "random-20:75:s3", "allow", 0): (28.041631, 8, 201, 11102),
     ("hga-aco", "random-20:75:s3", "strict", 0): (30.970563, 17, 201, 11106),
+    ("dijkstra", "random-20:75:s3", "strict", 0): (30.970563, 13, 0, 1),
+    ("any-angle", "random-20:75:s3", "allow", 0): (27.311295, 6, 0, 1),
+    ("any-angle", "random-20:75:s3", "strict", 0): (28.317904, 5, 0, 1),
     ("rrt", "random-20:75:s3", "strict", 0): (40.131185, 23, 1, 1),
     ("s-rrt", "random-20:75:s3", "strict", 0): (28.738856, 5, 1, 1),
+    ("nsga2", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3261),
+    ("nsga3", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3614),
+    ("sms-emoa", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3496),
+    ("age-moea", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3472),
+    ("moead", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 4633),
+    ("rvea", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3112),
+    ("spea2", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3405),
 }
 
 
@@ -60,4 +70,5 @@ def test_a_seed_gives_the_numbers_that_it_always_gave(run):
 
 def test_every_planner_of_ours_has_a_golden_run():
     ours = [e for e in default_registry().all_entries(pl.Planner) if e.source.ours and "/" in e.name]
-    assert {e.component.name for e in ours} == {planner for planner, *_ in GOLDEN}
+    exact = {"dijkstra", "any-angle"}
+    assert {e.component.name for e in ours} | exact == {planner for planner, *_ in GOLDEN}

@@ -50,7 +50,7 @@ def test_start_and_goal_in_one_cell_are_a_path_of_length_zero():
     problem = pl.PathProblem(pl.load_map("iga-map1"), start=(9, 0), goal=(9, 0))
     result = pl.plan(problem, "imga", optimum=True)
     assert result.path.tolist() == [[9, 0]]
-    assert (result.length, result.gap) == (0.0, {"grid": 0.0, "any_angle": 0.0})
+    assert (result.length, result.gap) == (0.0, {"grid": 0.0, "any_angle": 0.0, "any_angle_bound": 0.0})
     assert result.to_dict()["fitness"] is None  # 1 / 0, which JSON cannot say
 
 

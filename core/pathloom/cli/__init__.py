@@ -11,6 +11,7 @@ import click
 
 COMMANDS = {
     "plan": "Plan one path and show how good it is.",
+    "pareto": "Plan a front of trade-offs between objectives.",
     "claims": "Measure again what the papers say.",
     "maps": "List, show, check and make maps.",
     "plugins": "List and show plugins and their components.",

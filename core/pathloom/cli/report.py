@@ -61,11 +61,15 @@ def _rows(result: Result) -> Iterator[tuple[str, str]]:
     if result.optimum is not None:
         gaps = result.gap or {}
         for name, title in (("any_angle", "any-angle optimum"), ("grid", "octile optimum")):
-            best, gap = result.optimum.get(name), gaps.get(name)
-            if best is None:
-                yield title, "not computed: the map is too large for the exact search"
-            else:
+            best, bound = (result.optimum.get(key) for key in (name, f"{name}_bound"))
+            gap = gaps.get(name if best is not None else f"{name}_bound")
+            if best is not None:
                 yield title, f"{best:.4f} cells" + (f", gap {100 * gap:+.3f} %" if gap is not None else "")
+            elif bound is not None:
+                proven = f", gap at most {100 * gap:.3f} %" if gap is not None else ""
+                yield title, f"at least {bound:.4f} cells{proven}: the exact search was given up"
+            else:
+                yield title, "not known"
     objectives = ", ".join(f"{k} {v:.4g}" for k, v in result.objectives.items())
     if objectives:
         yield (

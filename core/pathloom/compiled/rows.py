@@ -135,6 +135,22 @@ def length_between(path, first, last, cols):
     return straight + diagonal * math.sqrt(2.0) + total
 
 
+@part("i4[::1](i8, i4[::1], i4[::1])")
+def path_to(last, parent, cell):
+    """Return the path to node ``last`` of a tree, root first; ``parent`` of the root is −1, ``cell`` is each node's."""
+    count = 0
+    i = last
+    while i >= 0:
+        i = parent[i]
+        count += 1
+    path = np.empty(count, np.int32)
+    i = last
+    for k in range(count - 1, -1, -1):
+        path[k] = cell[i]
+        i = parent[i]
+    return path
+
+
 @part("u8(i4[::1], i8)")
 def hash_of(path, count):
     """Return a 64-bit hash of a path: FNV-1a in two lanes, which the processor works off side by side, then mixed."""

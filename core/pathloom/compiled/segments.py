@@ -95,39 +95,49 @@ def segments_free(blocked, cols, first, second, policy):
     return free
 
 
-@kernel("i4[:, ::1](i4[:, ::1], u1[::1], i8, i8, i8)")
-def delete_points(population, blocked, cols, policy, passes):
-    """Drop every interior point whose neighbours see each other, in the order of the path.
+@part("i8(i4[::1], i8, u1[::1], i8, i8, i8)")
+def drop_points(path, count, blocked, cols, policy, passes):
+    """Drop, in place, every interior point whose neighbours see each other; return the new count.
 
     A point that is dropped leaves its predecessor to look at the next one.
     ``passes``: how often; 0: until nothing changes.
     """
-    n, width = population.shape
     per_row = 1.0 / cols
+    done = 0
+    while passes == 0 or done < passes:
+        kept = min(count, 1)
+        last = path[0]
+        r = row_of(last, per_row)
+        for i in range(1, count):
+            keep = i == count - 1
+            if not keep:
+                dr = row_of(path[i + 1], per_row) - r
+                keep = not segment_free(blocked, cols, last, dr, path[i + 1] - last - dr * cols, policy)
+            if keep:
+                last = path[i]
+                r = row_of(last, per_row)
+                path[kept] = last
+                kept += 1
+        done += 1
+        if kept == count:
+            break
+        count = kept
+    return count
+
+
+@kernel("i4[:, ::1](i4[:, ::1], u1[::1], i8, i8, i8)")
+def delete_points(population, blocked, cols, policy, passes):
+    """Drop every interior point of each path whose neighbours see each other, in the order of the path.
+
+    ``passes``: how often; 0: until nothing changes.
+    """
+    n, width = population.shape
     out = blank(n, width)
     for k in range(n):
-        count = length_of(population[k])
         row = out[k]
+        count = length_of(population[k])
         copy(row, 0, population[k], 0, count)
-        done = 0
-        while passes == 0 or done < passes:
-            kept = min(count, 1)
-            last = row[0]
-            r = row_of(last, per_row)
-            for i in range(1, count):
-                keep = i == count - 1
-                if not keep:
-                    dr = row_of(row[i + 1], per_row) - r
-                    keep = not segment_free(blocked, cols, last, dr, row[i + 1] - last - dr * cols, policy)
-                if keep:
-                    last = row[i]
-                    r = row_of(last, per_row)
-                    row[kept] = last
-                    kept += 1
-            for i in range(kept, count):
-                row[i] = -1
-            done += 1
-            if kept == count:
-                break
-            count = kept
+        kept = drop_points(row, count, blocked, cols, policy, passes)
+        for i in range(kept, count):
+            row[i] = -1
     return trimmed(out)

@@ -187,6 +187,8 @@ def _value(parameter: Parameter, value: Any, current: Any, registry: Registry, w
         return _terms(value, registry, where)
     if isinstance(value, list):
         value = tuple(value)
+    if isinstance(value, str) and value == NONE and parameter.optional:
+        return None
     return parameter.check(value, where)
 
 

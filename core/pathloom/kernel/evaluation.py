@@ -23,6 +23,8 @@ class Objective(Component, ABC):
     """A quantity to be minimised."""
 
     kind: ClassVar[str] = "objective"
+    negated: ClassVar[bool] = False
+    """Whether its value is minus the quantity that it is named after, which is to be large."""
 
     @abstractmethod
     def measure(self, population: Population, problem: Problem) -> Floats:

@@ -103,8 +103,9 @@ class Evolution(Search):
         began = time.perf_counter()
         with counting() as counts:
             demes = []
+            sampling = self.sampling.serving(self.weighed(problem))
             for _ in range(self.migration.demes if self.migration else 1):
-                population = self.sampling.sample(problem, self.population, rng)
+                population = sampling.sample(problem, self.population, rng)
                 demes.append(self.evaluate(population, problem))
             return self._reached(State(problem, rng.bit_generator.state), tuple(demes), 0, rng, counts, began)
 

@@ -43,6 +43,9 @@ class Planner(Component, ABC):
     assumptions: ClassVar[tuple[str, ...]] = ()
     """What the paper leaves open, and how it was filled."""
 
+    anytime: ClassVar[bool] = False
+    """Whether it goes on getting better for as long as it may: a time limit then takes the place of its termination."""
+
     termination: tuple[Termination, ...] = (MaxGenerations(),)
     """Conditions of which any one ends the run."""
     observers: tuple[Observer, ...] = ()

@@ -1,5 +1,6 @@
 """Drivers: run a planner on a problem, all of it or state by state."""
 
+import math
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -9,7 +10,7 @@ import numpy as np
 from pathloom.errors import ConfigError
 from pathloom.kernel.planner import Outcome, Planner
 from pathloom.kernel.problem import Problem
-from pathloom.kernel.state import State
+from pathloom.kernel.state import Individual, State
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,10 @@ class Run:
     phases: dict[str, float] = field(default_factory=dict)
     """Seconds spent in ``sampling``, ``evolution`` and ``refinement``."""
     interrupted: bool = False
+    first: float | None = None
+    """Seconds until there was an answer."""
+    best: float | None = None
+    """Seconds until the answer was found that stayed."""
 
 
 def check_seed(seed: object) -> int:
@@ -69,6 +74,7 @@ def run(
     *,
     time_limit: float | None = None,
     watch: Callable[[State], None] | None = None,
+    clock: Callable[[], float] = time.perf_counter,
 ) -> Run:
     """Run a planner to its end, or until the time is over or somebody interrupts.
 
@@ -79,8 +85,12 @@ def run(
         does within one step is not cut short.
     watch
         Called with every state.
+    clock
+        Gives the seconds of which the phases are made; the time limit is one of real time.
     """
-    began = time.perf_counter()
+    began, until = clock(), time.perf_counter() + (math.inf if time_limit is None else time_limit)
+    first = best = None
+    answer: Individual | None = None
     phases: dict[str, float] = {}
     state: State | None = None
     interrupted = False
@@ -88,14 +98,17 @@ def run(
         for state in iterate(problem, planner, seed):
             if watch is not None:
                 watch(state)
-            now = time.perf_counter() - began
+            now = clock() - began
             phases.setdefault("sampling", now)
-            if time_limit is not None and now >= time_limit:
+            if state.answer is not None and state.answer is not answer:
+                answer, best = state.answer, now
+                first = now if first is None else first
+            if time.perf_counter() >= until:
                 break
     except (KeyboardInterrupt, SystemError) as error:
         check_interrupt(error)
         interrupted = True
-    searched = time.perf_counter() - began
+    searched = clock() - began
     phases.setdefault("sampling", searched)
     phases["evolution"] = searched - phases["sampling"]
     outcome = Outcome(None, reason="interrupted before the first individual")
@@ -106,5 +119,5 @@ def run(
             check_interrupt(error)
             interrupted = True
             outcome = Outcome(state.answer.row if state.answer else None, state.answer, "interrupted")
-    phases["refinement"] = time.perf_counter() - began - searched
-    return Run(state, outcome, phases, interrupted)
+    phases["refinement"] = clock() - began - searched
+    return Run(state, outcome, phases, interrupted, first, best)

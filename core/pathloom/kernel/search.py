@@ -2,7 +2,7 @@
 
 import time
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -45,6 +45,13 @@ class Search(Planner, ABC):
     def weights(self, problem: Problem) -> Floats:
         """Return the weights (m,) of the objectives."""
         return self._weights if self.weighting is None else self.weighting.weights(self.objectives, problem)
+
+    def weighed(self, problem: Problem) -> Terms:
+        """Return the objectives with the weights that they have on this problem."""
+        if self.weighting is None:
+            return self.objectives
+        weights = self.weights(problem).tolist()
+        return Terms(replace(term, weight=weight) for term, weight in zip(self.objectives, weights, strict=True))
 
     @cached_property
     def _weights(self) -> Floats:

@@ -49,9 +49,18 @@ class KeepBest(Survival):
 class BestOfBoth(Survival):
     """Parents and children compete; the fittest of both make up the next generation."""
 
+    distinct: bool = False
+    """Let equal individuals in only where there are not enough others."""
+
     def survive(self, parents: Deme, children: Deme, problem: Problem, rng: np.random.Generator) -> Deme:
         population = problem.representation.stack(parents.population, children.population)
         values = np.concatenate((parents.values, children.values))
         fitness = np.concatenate((parents.fitness, children.fitness))
-        best = np.argsort(-fitness, kind="stable")[: len(parents)]
+        best = np.argsort(-fitness, kind="stable")
+        if self.distinct:
+            first, _ = problem.representation.distinct(population.take(best, 0))
+            again = np.ones(len(best), np.bool_)
+            again[first] = False
+            best = np.concatenate((best[first], best[again]))
+        best = best[: len(parents)]
         return Deme(population[best], values[best], fitness[best])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.grid import labels
+from pathloom.kernel.evaluation import Objective
 
 Bytes = NDArray[np.uint8]
 Cells = NDArray[np.int32]
@@ -111,6 +112,11 @@ class Context:
         for dr, dc in STEPS if reach == 8 else STEPS[::2]:
             total += blocked[1 + dr : 1 + dr + rows, 1 + dc : 1 + dc + cols]
         return _flat(total)
+
+    @cached_property
+    def optima(self) -> dict[Objective, float]:
+        """The least values of objectives on cell paths, as they become known."""
+        return {}
 
     @property
     def obstacles_near(self) -> Bytes:

@@ -1,13 +1,17 @@
 """Exchange of tails between two paths: at a cell that they have in common, or at a position."""
 
-from typing import Literal
+from dataclasses import dataclass
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from pathloom import compiled
+from pathloom.kernel.component import Share
 from pathloom.kernel.counting import count
-from pathloom.kernel.operators import Indices
+from pathloom.kernel.operators import Crossover, Indices
+from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
+from pathloom.paths.pathwise import path_problem
 from pathloom.paths.problem import PathProblem
 
 
@@ -56,3 +60,16 @@ def exchange_at_position(
     )  # fmt: skip
     count("crossover failed", failed)
     return children  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SharedNode(Crossover):
+    """Exchange the tails behind a random node that both parents visit; without one, keep the parents."""
+
+    source: ClassVar[str] = "Ahn and Ramakrishna 2002, section III-D"
+    works_on: ClassVar[str] = "cells"
+
+    rate: Share = 0.9
+
+    def cross(self, population: Population, pairs: Indices, problem: Problem, rng: np.random.Generator) -> Population:
+        return exchange_tails(population, pairs, path_problem(problem), rng)

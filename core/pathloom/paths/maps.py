@@ -22,6 +22,8 @@ SUFFIXES = (".map", ".yaml", ".yml", ".png", ".pgm", ".bmp", ".jpg", ".jpeg", ".
 _GENERATED = re.compile(r"(?P<family>(?:[\w-]+/)?[a-z]\w*)-(?P<size>\d+)(?P<rest>(?::[^:]*)*)")
 DRAWS = 1000
 """Sub-seeds after which a family is asked for no other map."""
+MOST_MAPS = 10_000
+"""Maps that one name may stand for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,6 +134,30 @@ def map_of(name: str, *, registry: Registry | None = None) -> Map:
         names = [e.component.name + ("-20" if issubclass(e.component, MapFamily) else "") for e in entries]
         raise MapError(f"{name}: no map and no file is called so; {closest(name, names)}")
     return component()
+
+
+def names_of(name: str) -> tuple[str, ...]:
+    """Return the names of all maps that a name stands for: ``random-20:75:x3`` for those of the seeds 0, 1 and 2.
+
+    With ``sSEED`` as well, the seeds go up from there. Any other name stands for itself.
+
+    Raises
+    ------
+    MapError
+        If the count is 0, or beyond `MOST_MAPS`.
+    """
+    generated = _GENERATED.fullmatch(name)
+    parts = generated["rest"].split(":")[1:] if generated else []
+    counts = [part for part in parts if re.fullmatch(r"x\d+", part)]
+    if generated is None or not counts or Path(name).is_file():
+        return (name,)
+    if len(counts) > 1 or not 1 <= int(counts[0][1:]) <= MOST_MAPS:
+        raise MapError(f"{name}: found {':'.join(counts)!r}, allowed one count from x1 to x{MOST_MAPS}")
+    seeds = [part for part in parts if re.fullmatch(r"s\d+", part)]
+    first = int(seeds[-1][1:]) if seeds else 0
+    rest = [f":{part}" for part in parts if part not in counts and part not in seeds]
+    base = f"{generated['family']}-{generated['size']}{''.join(rest)}"
+    return tuple(f"{base}:s{first + number}" for number in range(int(counts[0][1:])))
 
 
 def _family(name: str, registry: Registry) -> type[MapFamily] | None:

@@ -10,7 +10,9 @@ from pathloom.kernel.component import NonNegative, Positive
 from pathloom.kernel.evaluation import Floats, Objective
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
+from pathloom.paths.additive import STEP_LENGTHS, Prices, price_of_turns
 from pathloom.paths.pathwise import path_problem
+from pathloom.paths.problem import PathProblem
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,6 +23,9 @@ class Length(Objective):
 
     def measure(self, population: Population, problem: Problem) -> Floats:
         return np.asarray(compiled.measures.lengths(population, path_problem(problem).context.cols))
+
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices(step=STEP_LENGTHS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,10 +38,16 @@ class UnsafeCells(Objective):
         it = path_problem(problem).context
         return np.asarray(compiled.measures.flagged_cells(population, it.unsafe, it.cols))
 
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices.of_visiting(problem.context.unsafe, problem)
+
 
 @dataclass(frozen=True, kw_only=True)
 class ObstaclesBeside(Objective):
-    """Number of distinct obstacles among the 8 neighbours of the path, each charged once; ends included."""
+    """Number of distinct obstacles among the 8 neighbours of the path, each charged once; ends included.
+
+    Not additive: what a cell costs depends on the cells before.
+    """
 
     works_on: ClassVar[str] = "cells"
 
@@ -64,6 +75,9 @@ class Turns(Objective):
     def measure(self, population: Population, problem: Problem) -> Floats:
         return np.asarray(compiled.measures.turns(population, path_problem(problem).context.cols)[:, 0])
 
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices(turn=price_of_turns(lambda paths, cols: compiled.measures.turns(paths, cols)[:, 0]))
+
 
 @dataclass(frozen=True, kw_only=True)
 class TurnAngle(Objective):
@@ -74,6 +88,9 @@ class TurnAngle(Objective):
     def measure(self, population: Population, problem: Problem) -> Floats:
         return np.asarray(compiled.measures.turns(population, path_problem(problem).context.cols)[:, 1])
 
+    def prices(self, problem: PathProblem) -> Prices | None:
+        return Prices(turn=price_of_turns(lambda paths, cols: compiled.measures.turns(paths, cols)[:, 1]))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Clearance(Objective):
@@ -83,6 +100,7 @@ class Clearance(Objective):
     """
 
     works_on: ClassVar[str] = "cells"
+    negated: ClassVar[bool] = True
 
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem).context

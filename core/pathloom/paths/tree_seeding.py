@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 
 from pathloom import compiled
-from pathloom.kernel.component import Positive
+from pathloom.kernel.component import Count, Positive
 from pathloom.kernel.operators import Sampling
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
@@ -26,6 +26,8 @@ class PerturbedTrees(Sampling):
 
     spread: Positive = 1.0
     """Prices of cells are drawn from [1, 1 + spread]."""
+    pairs: Count = 1
+    """From how many pairs of trees the paths come, each over prices of its own."""
     detour: Annotated[float, msgspec.Meta(ge=1.0)] = 1.5
     """Way-points may cost at most this many times the direct way through the trees."""
 
@@ -34,8 +36,8 @@ class PerturbedTrees(Sampling):
         if not it.reachable:
             return np.empty((0, 1), np.int32)
         return np.asarray(
-            compiled.search.sample_from_trees(
-                n, it.moves, it.cols, it.start, it.goal, it.reachable_cells, self.spread, self.detour,
-                rng.bit_generator.random_raw(4),
+            compiled.seeding.sample_from_trees(
+                n, min(self.pairs, n), it.moves, it.cols, it.start, it.goal, it.reachable_cells, self.spread,
+                self.detour, rng.bit_generator.random_raw(4),
             )
         )  # fmt: skip

@@ -1,0 +1,141 @@
+"""Seeds from scalarised exact searches: optima of weighted sums, each a corner of the Pareto front."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import combinations, islice
+from typing import ClassVar
+
+import numpy as np
+
+from pathloom import compiled
+from pathloom.kernel.component import Count
+from pathloom.kernel.counting import count
+from pathloom.kernel.evaluation import Floats, Terms
+from pathloom.kernel.operators import Sampling
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+from pathloom.paths.additive import Prices, prices_of, weighted
+from pathloom.paths.pathwise import path_problem
+from pathloom.paths.priced_trees import USUAL
+from pathloom.paths.problem import PathProblem
+from pathloom.paths.tree_seeding import PerturbedTrees
+
+ASIDE = 1e-3
+"""Least share of an objective: without any, an optimum might be better in it at no cost."""
+TIE = 1e-10
+"""Random price of a cell, in units of the dearest step: of equally good paths any may be found."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scalarised(Sampling):
+    """Find the cheapest 8-connected path under one weighting after the other; fill up with other samples.
+
+    First under the objectives' own weights, then for each objective almost alone,
+    then under the weightings of a lattice on the simplex in random order, then
+    under random ones. Objectives are scaled by their ranges among the paths found
+    till then. What is not additive is left out, and counted.
+    """
+
+    works_on: ClassVar[str] = "cells"
+    gives: ClassVar[frozenset[str]] = frozenset({"8-connected"})
+
+    objectives: Terms = USUAL
+    """What is weighted. Left as it is, it stands for the objectives of the planner."""
+    vectors: Count = 66
+    """How many weightings are tried at most; 1: the objectives' own weights alone."""
+    work: Count = 2_000_000
+    """Limit of weightings times cells of the map: on large maps fewer are tried, or none."""
+    rest: Sampling = PerturbedTrees()
+    """Makes the individuals that are still missing."""
+
+    def serving(self, objectives: Terms) -> "Scalarised":
+        mine = objectives if self.objectives == USUAL else self.objectives
+        return replace(self, objectives=mine, rest=self.rest.serving(objectives))
+
+    def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
+        it = path_problem(problem)
+        if not it.reachable:
+            return np.empty((0, 1), np.int32)
+        found = self._optima(it, n, rng)
+        missing = n - len(found)
+        count("samples by fallback", missing)
+        if missing == 0:
+            return found
+        filled = self.rest.sample(problem, missing, rng)
+        return it.representation.stack(found, filled) if len(found) else filled
+
+    def _optima(self, problem: PathProblem, n: int, rng: np.random.Generator) -> Population:
+        """Return up to n distinct optima."""
+        priced = [(prices_of(term.objective, problem), term.weight) for term in self.objectives]
+        prices = [one for one, _ in priced if one is not None]
+        count("objectives not additive", len(priced) - len(prices))
+        cells = problem.context.blocked.size
+        search = _Search(problem, prices, rng)
+        if prices:
+            own = np.array([weight for one, weight in priced if one is not None])
+            for weights in islice(self._weightings(own, search, rng), min(self.vectors, self.work // cells)):
+                search.run(weights)
+                if len(search.paths) >= n:
+                    break
+        width = max((len(path) for path in search.paths), default=1)
+        population = np.full((len(search.paths), width), -1, np.int32)
+        for row, path in zip(population, search.paths, strict=True):
+            row[: len(path)] = path
+        return population[:n]
+
+    def _weightings(self, own: Floats, search: "_Search", rng: np.random.Generator) -> Iterator[Floats]:
+        m = len(own)
+        yield own
+        if m == 1:
+            return
+        for k in range(m):
+            yield np.where(np.arange(m) == k, 1.0, ASIDE) / search.scale
+        for share in rng.permutation(_lattice(m, self.vectors)):
+            yield np.maximum(share, ASIDE) / search.scale
+        while True:
+            yield rng.dirichlet(np.ones(m)) / search.scale
+
+
+class _Search:
+    """The optima found so far, and how far apart their values are."""
+
+    def __init__(self, problem: PathProblem, prices: list[Prices], rng: np.random.Generator) -> None:
+        self.problem, self.prices = problem, prices
+        self.paths: list[Population] = []
+        self._seen: set[bytes] = set()
+        self._values: list[Floats] = []
+        self._ties = rng.random(problem.context.blocked.size)
+
+    @property
+    def scale(self) -> Floats:
+        """The range (m,) of each objective, or its value where all have the same; 1 where that is zero."""
+        values = np.array(self._values)
+        spread = np.ptp(values, axis=0)
+        spread = np.where(spread > 0.0, spread, np.abs(values[0]))
+        return np.where(spread > 0.0, spread, 1.0)
+
+    def run(self, weights: Floats) -> None:
+        """Find the optimum under these weights, and keep it if it is new."""
+        it = self.problem.context
+        step, cell, turn, zone = weighted(self.prices, weights).tables
+        ties = TIE * (step.max() + cell.max(initial=0.0) + turn.max()) * self._ties
+        cell = cell + ties if cell.size else ties
+        walk = compiled.headings.cheapest(it.moves, it.cols, it.start, it.goal, step, cell, turn, zone)
+        path = compiled.reshaping.without_loops(walk[np.newaxis], it.blocked.size)
+        self._values.append(np.array([one.along(path, self.problem)[0] for one in self.prices]))
+        if path.tobytes() not in self._seen:
+            self._seen.add(path.tobytes())
+            self.paths.append(path[0])
+
+
+def _lattice(m: int, most: int) -> Floats:
+    """Return shares (k, m) in equal steps that add up to 1, at most so many, corners left out (Das and Dennis 1998)."""
+    finest = np.empty((0, m))
+    for parts in range(2, most + 1):
+        bars = np.array(list(combinations(range(parts + m - 1), m - 1)))
+        ends = np.full((len(bars), 1), -1), np.full((len(bars), 1), parts + m - 1)
+        shares = (np.diff(np.hstack((ends[0], bars, ends[1])), axis=1) - 1) / parts
+        if len(shares) > most:
+            break
+        finest = shares[shares.max(axis=1) < 1.0]
+    return finest

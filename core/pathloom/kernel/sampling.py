@@ -1,0 +1,45 @@
+"""Sampling that no paper owns."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pathloom.kernel.component import NonNegative
+from pathloom.kernel.evaluation import Terms
+from pathloom.kernel.operators import Sampling
+from pathloom.kernel.problem import Problem
+from pathloom.kernel.representation import Population
+from pathloom.kernel.shares import check_shares, cumulative
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mixed(Sampling):
+    """Shares of the first population from several samplings.
+
+    What one of them cannot supply, the next ones make up for.
+    """
+
+    parts: tuple[Sampling, ...]
+    """The samplings, in order."""
+    shares: tuple[NonNegative, ...] = ()
+    """One for each part, in any unit; empty: equal shares."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_shares(self.name, self.parts, self.shares, "sampling")
+        # What all of them give is given, and what one of them works on is needed.
+        object.__setattr__(self, "gives", frozenset.intersection(*(part.gives for part in self.parts)))
+
+    def serving(self, objectives: Terms) -> "Mixed":
+        return replace(self, parts=tuple(part.serving(objectives) for part in self.parts))
+
+    def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
+        due = np.rint(n * cumulative(self.parts, self.shares)).astype(int)  # how many there are to be after each part
+        population: Population | None = None
+        for part, wanted in zip(self.parts, due.tolist(), strict=True):
+            there = 0 if population is None else len(population)
+            drawn = part.sample(problem, wanted - there, rng) if wanted > there or population is None else None
+            if drawn is not None:
+                population = drawn if population is None else problem.representation.stack(population, drawn)
+        assert population is not None
+        return population
