@@ -185,6 +185,29 @@ def rows(planners: str, maps: str, corners: Any, seeds: int, first: int) -> None
         click.echo("| " + " | ".join(line) + " |")
 
 
+@bench.command("weighted")
+@click.option("--maps", default="random-20:20%:x20,random-50:20%:x10", show_default=True, help="Maps with commas.")
+@click.option("--planners", default="loom, imga, agacd", show_default=True, help=f"{PLANNERS}.")
+@click.option(
+    "--objectives", default="imga", show_default=True,
+    help="Those of a planner, or a table in TOML: '{length = 1, unsafe-cells = 1, turns = 1}'.",
+)  # fmt: skip
+@click.option("--seeds", type=COUNT, default=3, show_default=True, help="Runs on each map.")
+@CORNERS
+def weighted(maps: str, planners: str, objectives: str, seeds: int, corners: Any) -> None:
+    """Print how far above the exact optimum of a weighted sum over cell paths planners stay, in Markdown.
+
+    The optimum is that over paths of single steps, by search over cell and heading.
+    A path at any angle can be below it.
+    """
+    from pathloom.bench.table import markdown as in_markdown
+    from pathloom.bench.weighted import HEADS, terms_of
+    from pathloom.bench.weighted import rows as measured
+
+    lines = list(measured(maps, planners, terms_of(objectives), corners, range(seeds)))
+    click.echo(in_markdown(HEADS, lines))
+
+
 def main() -> None:
     """Run, and exit with a code: one line for whatever is wrong with the input."""
     try:
