@@ -54,6 +54,8 @@ if TYPE_CHECKING:
     from pathloom.paths.vectors.swarm import Swarm
     from pathloom.planning import compose, freeze, iterate, plan
     from pathloom.result import Result
+    from pathloom.study import Study, ablate, compare
+    from pathloom.study.tuning import Tuning, tune
 
 _HOME = {
     "claims": ("Bench", "Claim", "Finding"),
@@ -94,6 +96,8 @@ _HOME = {
     "paths.vectors.planner": ("VectorPlanner", "VectorState"),
     "planning": ("compose", "freeze", "iterate", "plan"),
     "result": ("Result",),
+    "study": ("Study", "ablate", "compare"),
+    "study.tuning": ("Tuning", "tune"),
 }  # fmt: skip
 _FROM = {name: module for module, names in _HOME.items() for name in names}
 
@@ -162,19 +166,23 @@ __all__ = [
     "Share",
     "Smoother",
     "State",
+    "Study",
     "Survival",
     "Swarm",
     "Term",
     "Termination",
     "Terms",
+    "Tuning",
     "VectorPlanner",
     "VectorState",
     "Weighting",
     "Whole",
     "__version__",
+    "ablate",
     "additive_optimum",
     "additive_path",
     "any_angle_path",
+    "compare",
     "compiled",
     "compose",
     "count",
@@ -187,6 +195,7 @@ __all__ = [
     "octile_path",
     "pareto",
     "plan",
+    "tune",
     "validate",
     "write_map",
 ]

@@ -25,6 +25,7 @@ from pathloom.paths.loops import LoopRemoval
 from pathloom.paths.objectives import Clearance, Length, ObstaclesBeside, TurnAngle, Turns, UnsafeCells
 from pathloom.paths.priced_trees import PricedTrees
 from pathloom.paths.reroute import Reroute
+from pathloom.paths.stretches import SharedStretches
 from pathloom.paths.tree_seeding import PerturbedTrees
 from pathloom.paths.vectors.decoding import Rows, Waypoints
 
@@ -40,7 +41,7 @@ def register(add: Add) -> None:
         ReciprocalOfSum, WeightedReciprocals,
         Roulette, Tournament, RandomPairs, ConsecutivePairs,
         Replacement, KeepBest, BestOfBoth,
-        SharedNode, Reroute, RandomImmigrants, OneOf,
+        SharedNode, SharedStretches, Reroute, RandomImmigrants, OneOf,
         PointDeletion, LoopRemoval, InTurn, Exact,
         BSpline, CubicBezier,
         Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,

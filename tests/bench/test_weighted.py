@@ -37,7 +37,7 @@ def test_objectives_are_those_of_a_planner_or_a_table():
 @pytest.mark.parametrize(
     ("planners", "objectives", "says"),
     [
-        ("dijkstra", "imga", "'dijkstra' weighs no objectives"),
+        ("nsga2", "imga", "'nsga2' weighs no objectives"),
         ("imga", "{length = 1, clearance = 1}", "not additive"),
         ("imga", "{length = ", "--objectives: "),
         ("imga", "nobody", "nobody"),

@@ -34,9 +34,9 @@ WRONG = {
     "no time": ("[run]\ntime_limit = 0\n", "run.time_limit: found 0, allowed seconds above 0"),
     "a time that is no number": ("[run]\ntime_limit = nan\n", "run.time_limit: found nan"),
     "an unknown planner": ('[planner]\nuse = "imgaa"\n', "no planner is called 'imgaa'; did you mean 'imga/imga'?"),
-    "an unknown slot": ('[planner]\nselektion = "roulette"\n', "planner.selektion: 'imga/imga' has no such slot"),
+    "an unknown slot": ('[planner]\nselektion = "roulette"\n', "planner.selektion: 'loom/loom' has no such slot"),
     "an unknown component": ('[planner]\nselection = "roulete"\n', "planner.selection: no selection is called"),
-    "an unknown field": ("[planner.crossover]\nraet = 0.5\n", "planner.crossover.raet: 'imga/common-node' has no"),
+    "an unknown field": ("[planner.crossover]\nraet = 0.5\n", "planner.crossover.raet: 'shared-node' has no"),
     "a field out of range": ("[planner.crossover]\nrate = 1.5\n", "planner.crossover.rate is a number in [0, 1]"),
     "a field of another type": (
         '[planner]\npopulation = "many"\n',

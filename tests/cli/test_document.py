@@ -7,7 +7,8 @@ import pytest
 
 from .conftest import timeless, write
 
-MAP1 = ("plan", "--map", "iga-map1", "--corners", "allow", "--seed", 7)
+PROBLEM1 = ("plan", "--map", "iga-map1", "--corners", "allow", "--seed", 7)
+MAP1 = (*PROBLEM1, "--planner", "imga")
 
 
 def is_int(value: object) -> bool:
@@ -96,8 +97,27 @@ def test_every_key_of_the_interface_is_there_with_its_type(cli) -> None:
         assert fits(value), (dotted, value)
 
 
-def test_the_numbers_of_a_document_belong_together(cli) -> None:
-    found = cli(*MAP1, "--optimum", "--json").document
+def test_the_default_planner_fills_the_same_document_with_its_own_objective(cli) -> None:
+    document = cli(*PROBLEM1, "--optimum", "--json").document
+    assert document["planner"] == "loom"
+    assert document["objectives"] == {"length": pytest.approx(document["metrics"]["length"])}
+    others = {key: fits for key, fits in SHAPE.items() if key != "planner" and not key.startswith("objectives.")}
+    for dotted, fits in others.items():
+        value = document
+        for key in dotted.split("."):
+            value = value[key]
+        assert fits(value), (dotted, value)
+
+
+@pytest.mark.parametrize("planner", ["loom", "imga"])
+def test_a_document_says_when_the_first_path_was_there_and_when_the_best(cli, planner) -> None:
+    budget = cli(*PROBLEM1, "--planner", planner, "--json").document["budget"]
+    assert 0.0 < budget["seconds_to_first"] <= budget["seconds_to_best"] <= budget["seconds"]
+
+
+@pytest.mark.parametrize("planner", ["loom", "imga"])
+def test_the_numbers_of_a_document_belong_together(cli, planner) -> None:
+    found = cli(*PROBLEM1, "--planner", planner, "--optimum", "--json").document
     path, history = found["path"], found["history"]
     assert path[0] == found["problem"]["start"] == [9, 0]
     assert path[-1] == found["problem"]["goal"] == [0, 9]
@@ -118,13 +138,15 @@ def test_optimum_and_gap_are_null_unless_asked_for(cli) -> None:
 
 
 def test_json_is_one_line_and_the_only_thing_printed(cli) -> None:
-    done = cli(*MAP1, "--optimum", "--json")
+    done = cli(*PROBLEM1, "--optimum", "--json")
     assert done.err == ""
     assert done.out.count("\n") == 1
 
 
-def test_same_seed_in_two_processes_gives_the_same_bytes_apart_from_times(process) -> None:
-    one, two = (process(*MAP1, "--optimum", "--json", env={"PYTHONHASHSEED": seed}) for seed in ("1", "2"))
+@pytest.mark.parametrize("planner", ["loom", "imga"])
+def test_same_seed_in_two_processes_gives_the_same_bytes_apart_from_times(process, planner) -> None:
+    run = (*PROBLEM1, "--planner", planner)
+    one, two = (process(*run, "--optimum", "--json", env={"PYTHONHASHSEED": seed}) for seed in ("1", "2"))
     assert one.code == two.code == 0
     assert str(timeless(one.document)) == str(timeless(two.document))
 
@@ -145,7 +167,7 @@ def test_an_unreachable_goal_is_a_document_without_path(cli, wall) -> None:
 
 def test_a_search_that_finds_nothing_says_so_and_what_may_help(cli) -> None:
     # One try to draw each individual is not enough on this map.
-    done = cli("plan", "--map", "iga-map1", "--set", "sampling.tries=1", "--json")
+    done = cli("plan", "--planner", "imga", "--map", "iga-map1", "--set", "sampling.tries=1", "--json")
     assert done.code == 3
     assert done.document["status"] == "not-found"
     assert done.document["path"] is None

@@ -8,14 +8,20 @@ import pytest
 from .configs import ALL, EVERY_SECTION
 from .conftest import Cli, timeless, write
 
+IMGA = ("--planner", "imga", "--set")
 CHANGES = {
-    "components": ("--set", "selection=tournament", "--set", "sampling=perturbed-trees"),
+    "components": ("--set", "selection=roulette", "--set", "sampling=perturbed-trees"),
     "fields": ("--set", "population=24", "--set", "crossover.rate=0.5", "--set", "termination.limit=6"),
     "weights": ("--set", "objectives.length=3", "--set", "objectives.turns=2"),
-    "empty slots": ("--set", "crossover=none", "--set", "refinement=none", "--set", "archive=none"),
+    "empty slots": ("--set", "crossover=none", "--set", "mutation=none", "--set", "control.learning=none"),
+    "imga": ("--planner", "imga"),
+    "components of imga": (*IMGA, "selection=tournament", "--set", "sampling=perturbed-trees"),
+    "fields of imga": (*IMGA, "population=24", "--set", "crossover.rate=0.5", "--set", "termination.limit=6"),
+    "weights of imga": (*IMGA, "objectives.length=3", "--set", "objectives.turns=2"),
+    "empty slots of imga": (*IMGA, "crossover=none", "--set", "refinement=none", "--set", "archive=none"),
     "another planner": ("--planner", "ga-imga", "--seed", "5"),
     "a problem": ("--start", "8,0", "--goal", "top-right", "--corners", "no-squeeze", "--map", "random-15:20:s4"),
-    "a time": ("--time-limit", "60"),
+    "a time": ("--planner", "imga", "--time-limit", "60"),  # an anytime planner would use it up
 }
 RUNS: dict[str, tuple[str, tuple[str, ...]]] = {
     **{name: (text, ()) for name, text in ALL.items()},
@@ -66,14 +72,39 @@ def test_a_frozen_config_names_every_default(cli) -> None:
         "radius": 0.0,
         "unknown": "occupied",
     }
-    assert frozen["planner"]["crossover"] == {
-        "use": "imga/common-node",
-        "rate": 0.8,
-        "probability": "none",
-        "loops": False,
+    assert frozen["planner"]["use"] == "loom/loom"
+    assert frozen["planner"]["crossover"] == {"use": "shared-node", "rate": 0.9, "probability": "none"}
+    assert frozen["planner"]["control"] == {
+        "use": "memetic",
+        "learning": {
+            "use": "in-turn",
+            "steps": [{"use": "loom/string-pulling", "sweeps": 20}, {"use": "loom/gene-pool", "halo": 2, "room": 20000}],
+        },
+        "polish": {"use": "loom/band-search", "radius": 2, "rounds": 5},
+        "elite": 1,
     }
     assert frozen["planner"]["migration"] == "none"
     assert frozen["run"] == {"seed": 0, "time_limit": "none"}
+
+
+WITH_A_TIME = {
+    "the default planner goes by the clock alone": ((), ["wall-time"]),
+    "unless it is told how to end": (("--set", "termination=max-generations"), ["max-generations"]),
+    "others end as they always do, or before": (
+        ("--planner", "imga"),
+        ["max-generations", "stagnation", "wall-time"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", WITH_A_TIME)
+def test_with_a_time_limit(cli, case) -> None:
+    options, terminations = WITH_A_TIME[case]
+    frozen = tomllib.loads(freeze(cli, "plan", "--time-limit", "9", *options))
+    assert frozen["run"]["time_limit"] == 9
+    assert [t["use"] for t in frozen["planner"]["termination"]] == terminations
+    if not options:
+        assert frozen["planner"]["termination"] == [{"use": "wall-time", "seconds": 9.0}]
 
 
 def test_a_frozen_config_finds_its_map_from_any_folder(cli, folder: Path, ring) -> None:

@@ -47,7 +47,7 @@ def test_show_of_a_planner_tells_reference_fidelity_assumptions_and_parameters_w
 def test_show_of_a_planner_as_json_holds_its_complete_config(cli) -> None:
     document = cli("plugins", "show", "imga/imga", "--json").document
     assert document["fidelity"] == "faithful"
-    assert document["config"] == tomllib.loads(cli("plan", "--freeze").out)["planner"]
+    assert document["config"] == tomllib.loads(cli("plan", "--planner", "imga", "--freeze").out)["planner"]
 
 
 @pytest.mark.parametrize("name", PARTS)

@@ -8,16 +8,25 @@ import pytest
 from .conftest import Cli
 
 
-@pytest.fixture
-def planner(cli: Cli):
-    """Return the planner that the settings make of the default one."""
-
+def freezing(cli: Cli, *options: str):
     def frozen(*settings: str) -> dict[str, Any]:
-        done = cli("plan", *(word for setting in settings for word in ("--set", setting)), "--freeze")
+        done = cli("plan", *options, *(word for setting in settings for word in ("--set", setting)), "--freeze")
         assert (done.code, done.err) == (0, "")
         return tomllib.loads(done.out)["planner"]
 
     return frozen
+
+
+@pytest.fixture
+def planner(cli: Cli):
+    """Return the planner that the settings make of the default one."""
+    return freezing(cli)
+
+
+@pytest.fixture
+def imga(cli: Cli):
+    """Return the planner that the settings make of `imga`, which has three objectives."""
+    return freezing(cli, "--planner", "imga")
 
 
 def test_a_slot_takes_a_component_with_its_defaults(planner) -> None:
@@ -59,18 +68,30 @@ def test_a_number_for_an_objective_is_its_weight(planner) -> None:
     assert after == {**before, "length": {**before["length"], "weight": 3.0}}
 
 
-def test_a_number_for_a_new_objective_adds_it(planner) -> None:
-    terms = planner("objectives.turns=2")["objectives"]
+def test_a_number_for_one_of_several_objectives_leaves_the_others(imga) -> None:
+    before, after = imga()["objectives"], imga("objectives.length=3")["objectives"]
+    assert after == {**before, "length": {**before["length"], "weight": 3.0}}
+    assert list(before) == ["length", "safety", "energy"]
+
+
+def test_a_field_of_a_part_of_a_part_is_set(planner) -> None:
+    control = planner("control.polish.radius=3", "control.learning.steps.gene-pool.halo=1")["control"]
+    assert control["polish"]["radius"] == 3
+    assert [step.get("halo") for step in control["learning"]["steps"]] == [None, 1]
+
+
+def test_a_number_for_a_new_objective_adds_it(imga) -> None:
+    terms = imga("objectives.turns=2")["objectives"]
     assert list(terms) == ["length", "safety", "energy", "turns"]
     assert terms["turns"] == {"use": "turns", "weight": 2.0}
 
 
-def test_none_takes_an_objective_away(planner) -> None:
-    assert list(planner("objectives.energy=none")["objectives"]) == ["length", "safety"]
+def test_none_takes_an_objective_away(imga) -> None:
+    assert list(imga("objectives.energy=none")["objectives"]) == ["length", "safety"]
 
 
-def test_a_field_of_an_objective_is_set(planner) -> None:
-    assert planner("objectives.safety.penalty=2")["objectives"]["safety"]["penalty"] == 2.0
+def test_a_field_of_an_objective_is_set(imga) -> None:
+    assert imga("objectives.safety.penalty=2")["objectives"]["safety"]["penalty"] == 2.0
 
 
 @pytest.mark.parametrize("path", ["termination.max-generations.limit", "termination.0.limit", "termination.limit"])
@@ -107,7 +128,8 @@ def test_settings_act_in_their_order(planner) -> None:
 
 
 def test_a_field_of_a_component_that_a_later_setting_brings_is_refused(refused) -> None:
-    assert "no such parameter" in refused("plan", "--set", "selection.size=4", "--set", "selection=tournament")
+    options = ("--planner", "imga", "--set", "selection.size=4", "--set", "selection=tournament")
+    assert "no such parameter" in refused("plan", *options)
 
 
 def test_a_setting_changes_the_run(cli) -> None:

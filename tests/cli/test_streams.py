@@ -115,11 +115,12 @@ def test_a_full_disk_is_told_in_one_line(folder: Path, buffer: int) -> None:
 def test_an_output_that_knows_ascii_only_gets_the_picture_as_far_as_it_goes(process) -> None:
     done = process("plan", env={"PYTHONIOENCODING": "ascii"})
     assert (done.code, done.err) == (0, "")
-    assert "planner     imga" in done.out
+    assert "planner     loom" in done.out
 
 
-def test_a_time_limit_ends_the_run_with_the_best_path_so_far(cli) -> None:
-    document = cli(*ENDLESS, "--time-limit", 0.05, "--json").document
+@pytest.mark.parametrize("planner", ["loom", "imga"])
+def test_a_time_limit_ends_the_run_with_the_best_path_so_far(cli, planner) -> None:
+    document = cli(*ENDLESS, "--planner", planner, "--time-limit", 0.05, "--json").document
     assert document["status"] == "found"
     assert document["budget"]["generations"] < 1_000_000
     assert document["config"]["run"]["time_limit"] == 0.05

@@ -50,6 +50,13 @@ def test_shares_that_do_not_divide_add_up_all_the_same(n):
     assert sum(counts(Mixed(parts=tuple(Marked(mark=k) for k in range(3)), shares=(0.3, 0.3, 0.3)), n)) == n
 
 
+@pytest.mark.parametrize(
+    ("shares", "n", "wanted"), [((39, 1, 0), 20, [19, 1, 0]), ((1, 98, 1), 10, [1, 8, 1]), ((1, 98, 1), 3, [1, 1, 1])]
+)
+def test_who_has_a_share_has_one_individual_where_there_are_enough(shares, n, wanted):
+    assert counts(Mixed(parts=tuple(Marked(mark=k) for k in range(3)), shares=shares), n) == wanted
+
+
 def test_the_next_ones_make_up_for_what_one_cannot_supply():
     parts = (Marked(mark=0, most=2), Marked(mark=1, most=0), Marked(mark=2))
     assert counts(Mixed(parts=parts), 30) == [2, 0, 28]

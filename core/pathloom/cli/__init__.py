@@ -12,6 +12,10 @@ import click
 COMMANDS = {
     "plan": "Plan one path and show how good it is.",
     "pareto": "Plan a front of trade-offs between objectives.",
+    "compare": "Hold planners against each other.",
+    "ablate": "Change one part of a planner at a time.",
+    "tune": "Try values of a planner's parameters, and predict the best.",
+    "study": "Show, resume and export what compare and ablate wrote.",
     "claims": "Measure again what the papers say.",
     "maps": "List, show, check and make maps.",
     "plugins": "List and show plugins and their components.",

@@ -10,7 +10,6 @@ import math
 import numpy as np
 
 from pathloom.compiled.directions import DC, DR, TOWARDS
-from pathloom.compiled.heap import pop, push
 from pathloom.compiled.jit import kernel, part
 from pathloom.compiled.random import below, uniform
 from pathloom.compiled.rows import copy, length_of, remove_loops, row_of, with_changed, with_room
@@ -23,20 +22,58 @@ BESIDE = 1.5
 
 @part("i8(i8, i8, i8)")
 def _direction(here, there, cols):
-    """Return the direction of a single step between two cells, −1 for any other segment."""
+    """Return the direction of a single step between two cells, 8 for any other segment."""
     dr, dc = there // cols - here // cols, there % cols - here % cols
     if abs(dr) > 1 or abs(dc) > 1:
-        return np.int64(-1)
+        return np.int64(8)
     return TOWARDS[3 * (dr + 1) + dc + 1]
 
 
-@part("f8(i8, i8, f8, f8)")
-def _turn(before, after, each, angle):
-    """Return the price of a turn: ``each`` for itself and ``angle`` for every 45°; none where a direction is −1."""
-    if before < 0 or after < 0 or before == after:
-        return 0.0
-    apart = abs(after - before)
-    return each + angle * min(apart, 8 - apart)
+@part("void(f8[:, ::1], f8, f8)")
+def _price_turns(turn, each, angle):
+    """Write what turns cost, by direction in and out: ``each`` for itself and ``angle`` for every 45°.
+
+    The direction 8 stands for any: nothing is paid.
+    """
+    for before in range(9):
+        for after in range(9):
+            apart = abs(after - before)
+            apart = 0 if max(before, after) == 8 else min(apart, 8 - apart)
+            turn[before, after] = each + angle * apart if apart > 0 else 0.0
+
+
+@part("void(f8[::1], i4[::1], i8, f8, i8)")
+def _put(keys, items, size, key, item):
+    """Put an item into a heap of this size."""
+    i = size
+    while i > 0:
+        up = (i - 1) // 2
+        if keys[up] <= key:
+            break
+        keys[i], items[i] = keys[up], items[up]
+        i = up
+    keys[i], items[i] = key, item
+
+
+@part("i8(f8[::1], i4[::1], i8)")
+def _take(keys, items, size):
+    """Take the item with the least key out of a heap of this size."""
+    least = items[0]
+    size -= 1
+    key, item = keys[size], items[size]
+    i = 0
+    while True:
+        down = 2 * i + 1
+        if down >= size:
+            break
+        if down + 1 < size and keys[down + 1] < keys[down]:
+            down += 1
+        if keys[down] >= key:
+            break
+        keys[i], items[i] = keys[down], items[down]
+        i = down
+    keys[i], items[i] = key, item
+    return least
 
 
 @part("f8(u8[::1], f8)")
@@ -111,8 +148,9 @@ def reroute(
     flat = np.empty(chosen.shape[0] * (population.shape[1] + 8), np.int32)
     begin = np.zeros(chosen.shape[0] + 1, np.int64)
     room = 0
-    far, key, noise = np.empty(0), np.empty(0), np.empty(0)
-    parent, place, heap = np.empty(0, np.int32), np.empty(0, np.int32), np.empty(0, np.int32)
+    far, least, half, extra = np.empty(0), np.empty(0), np.empty(0), np.empty(0)
+    parent, keys, items = np.empty(0, np.int32), np.empty(0), np.empty(0, np.int32)
+    turn = np.empty((9, 9))
     failed = 0
     for q in range(chosen.shape[0]):
         nodes = population[chosen[q]]
@@ -128,8 +166,8 @@ def reroute(
         first = below(state, count - span)
         last = first + span
         start, goal = np.int64(row[first]), np.int64(row[last])
-        entry = _direction(row[first - 1], start, cols) if first > 0 else -1
-        leave = _direction(goal, row[last + 1], cols) if last + 1 < count else -1
+        entry = _direction(row[first - 1], start, cols) if first > 0 else 8
+        leave = _direction(goal, row[last + 1], cols) if last + 1 < count else 8
 
         top, left, down, right = rows, cols, 0, 0
         closest = np.inf
@@ -144,67 +182,77 @@ def reroute(
         cells = (down - top + 1) * wide
         per_row = 1.0 / wide
 
-        if 8 * cells > room:
-            room = 16 * cells
-            far, key, noise = np.empty(room), np.empty(room), np.empty(room)
-            parent, place, heap = np.empty(room, np.int32), np.empty(room, np.int32), np.empty(room, np.int32)
-        for k in range(8 * cells):
-            far[k] = np.inf
-            place[k] = -1
+        if cells > room:
+            room = 2 * cells
+            far, least, half, extra = np.empty(8 * room), np.empty(room), np.empty(room), np.empty(room)
+            parent = np.empty(8 * room, np.int32)
+            keys, items = np.empty(64 * room + 8), np.empty(64 * room + 8, np.int32)  # as many as there are turns
         amount = uniform(state)
         amount *= spread * amount
         for k in range(cells):
-            noise[k] = 1.0 + amount * uniform(state)
+            half[k] = 0.5 + 0.5 * amount * uniform(state)
+            least[k] = np.inf
+        for k in range(8 * cells):
+            far[k] = np.inf
         weight = _ratio(state, cell_scale)
         near = BESIDE if uniform(state) < 0.5 else closest
         each = _ratio(state, turn_scale)
         angle = 0.0
         if uniform(state) < 0.5:
             each, angle = 0.0, 0.5 * each
+        _price_turns(turn, each, angle)
+        for k in range(cells):
+            beside = row_of(k, per_row)
+            extra[k] = weight if distance[(top + beside) * cols + left + k - beside * wide] <= near else 0.0
 
         goal_r, goal_c = goal // cols, goal % cols
+        sharpest = each + 4.0 * angle
+        end = (goal_r - top) * wide + goal_c - left
         size = 0
         node = np.int64(-1)  # the stretch's first cell, entered from outside the box
+        here, heading, so_far = (start // cols - top) * wide + start % cols - left, entry, 0.0
         while True:
-            if node < 0:
-                r, c, heading, so_far = start // cols, start % cols, entry, 0.0
-            else:
-                cell = node >> 3
-                below_top = row_of(cell, per_row)
-                r, c, heading, so_far = top + below_top, left + cell - below_top * wide, node & 7, far[node]
-                if r == goal_r and c == goal_c:
-                    break
+            below_top = row_of(here, per_row)
+            r, c = top + below_top, left + here - below_top * wide
             legal = moves[r * cols + c]
-            here = (r - top) * wide + c - left
-            for k in range(8):
-                # Beyond 90° a step from the cell before is shorter, and legal: only the first turn may be so sharp.
-                d = k if node < 0 else (heading + k - 2) & 7
-                if k > 4 and node >= 0:
-                    break
+            for d in range(8):
                 if not legal >> d & 1:
                     continue
                 rr, cc = r + DR[d], c + DC[d]
                 if rr < top or rr > down or cc < left or cc > right:
                     continue
-                there = (rr - top) * wide + cc - left
-                step = (SQRT2 if d % 2 == 1 else 1.0) * 0.5 * (noise[here] + noise[there])
-                way = so_far + step + _turn(heading, d, each, angle)
-                if distance[rr * cols + cc] <= near:
-                    way += weight
-                if rr == goal_r and cc == goal_c:
-                    way += _turn(d, leave, each, angle)
+                there = here + DR[d] * wide + DC[d]
+                step = (half[here] + half[there]) * (SQRT2 if d % 2 == 1 else 1.0)
+                way = so_far + step + turn[heading, d] + extra[there]
+                ahead = 0.0
+                if there == end:
+                    way += turn[d, leave]
+                else:
+                    dr, dc = goal_r - rr, goal_c - cc
+                    if dr * DC[d] != dc * DR[d] or dr * DR[d] + dc * DC[d] < 0:  # the goal is not straight ahead
+                        ahead = each + angle
+                    dr, dc = abs(dr), abs(dc)
+                    ahead += max(dr, dc) + (SQRT2 - 1.0) * min(dr, dc)
+                # Who came here from elsewhere, and may turn as sharply as can be, has no more to pay.
                 at = 8 * there + d
-                if way < far[at]:
+                if way < far[at] and way < least[there] + sharpest:
                     far[at] = way
+                    least[there] = min(least[there], way)
                     parent[at] = node
-                    dr, dc = abs(rr - goal_r), abs(cc - goal_c)
-                    key[at] = way + max(dr, dc) + (SQRT2 - 1.0) * min(dr, dc)
-                    size = push(heap, place, key, size, at)
-            if size == 0:
+                    _put(keys, items, size, way + ahead, at)
+                    size += 1
+            node = np.int64(-1)
+            while size > 0 and node < 0:
+                node = _take(keys, items, size)
+                size -= 1
+                here, heading = node >> 3, node & 7
+                so_far = far[node]
+                if so_far < 0.0 or so_far > least[here] + sharpest:
+                    node = np.int64(-1)
+            if node < 0 or here == end:
                 break
-            node = np.int64(pop(heap, place, key, size))
-            size -= 1
-        if node < 0 or node // 8 != (goal_r - top) * wide + goal_c - left:
+            far[node] = -1.0  # done with
+        if node < 0:
             failed += 1
             continue
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pathloom.kernel.component import NonNegative
 from pathloom.kernel.evaluation import Terms
@@ -16,7 +17,8 @@ from pathloom.kernel.shares import check_shares, cumulative
 class Mixed(Sampling):
     """Shares of the first population from several samplings.
 
-    What one of them cannot supply, the next ones make up for.
+    Who has a share has one individual at least, where there are enough. What one
+    of them cannot supply, the next ones make up for.
     """
 
     parts: tuple[Sampling, ...]
@@ -34,7 +36,7 @@ class Mixed(Sampling):
         return replace(self, parts=tuple(part.serving(objectives) for part in self.parts))
 
     def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
-        due = np.rint(n * cumulative(self.parts, self.shares)).astype(int)  # how many there are to be after each part
+        due = np.cumsum(self._sizes(n))  # how many there are to be after each part
         population: Population | None = None
         for part, wanted in zip(self.parts, due.tolist(), strict=True):
             there = 0 if population is None else len(population)
@@ -43,3 +45,14 @@ class Mixed(Sampling):
                 population = drawn if population is None else problem.representation.stack(population, drawn)
         assert population is not None
         return population
+
+    def _sizes(self, n: int) -> NDArray[np.int64]:
+        """Return how many individuals (k,) each of k parts is to make of n."""
+        until = cumulative(self.parts, self.shares)
+        sizes = np.diff(np.rint(n * until).astype(np.int64), prepend=0)
+        left_out = (sizes == 0) & (np.diff(until, prepend=0.0) > 0.0)
+        for part in left_out.nonzero()[0]:
+            if sizes.max() > 1:
+                sizes[sizes.argmax()] -= 1
+                sizes[part] = 1
+        return sizes
