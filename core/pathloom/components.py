@@ -1,5 +1,6 @@
 """The components that belong to no paper, registered through the same hook as everybody's."""
 
+from pathloom.exact.aloof import Aloof
 from pathloom.exact.planners import AnyAngle, Dijkstra
 from pathloom.exact.scalarised import Scalarised
 from pathloom.kernel.archive import BestRefined
@@ -25,7 +26,6 @@ from pathloom.paths.loops import LoopRemoval
 from pathloom.paths.objectives import Clearance, Length, ObstaclesBeside, TurnAngle, Turns, UnsafeCells
 from pathloom.paths.priced_trees import PricedTrees
 from pathloom.paths.reroute import Reroute
-from pathloom.paths.stretches import SharedStretches
 from pathloom.paths.tree_seeding import PerturbedTrees
 from pathloom.paths.vectors.decoding import Rows, Waypoints
 
@@ -36,12 +36,12 @@ def register(add: Add) -> None:
     for component in (
         Evolution, Generational, Memetic, BestRefined,
         Dijkstra, AnyAngle,
-        PerturbedTrees, PricedTrees, Scalarised, Mixed, Bound,
+        PerturbedTrees, PricedTrees, Scalarised, Aloof, Mixed, Bound,
         Length, UnsafeCells, ObstaclesBeside, Turns, TurnAngle, Clearance,
         ReciprocalOfSum, WeightedReciprocals,
         Roulette, Tournament, RandomPairs, ConsecutivePairs,
         Replacement, KeepBest, BestOfBoth,
-        SharedNode, SharedStretches, Reroute, RandomImmigrants, OneOf,
+        SharedNode, Reroute, RandomImmigrants, OneOf,
         PointDeletion, LoopRemoval, InTurn, Exact,
         BSpline, CubicBezier,
         Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,

@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from pathloom import Floats, Indices, Population, Whole, count
+from pathloom import Floats, Indices, Population, Share, Whole, count
 from pathloom_pymoo.archive import new_values
 from pathloom_pymoo.planner import MultiObjective
 from pathloom_pymoo.state import FrontState
@@ -22,6 +22,10 @@ class Breeding(MultiObjective):
     equal: Literal["paths", "values"] = "values"
     """Who is there already: somebody with the same path, or, once evaluated, somebody with the same values."""
 
+    from_archive: Share = 0.5
+    """Probability that a pair comes from the trade-offs of all generations, of which there may be many more than
+    places in the population; 0: never, as in pymoo."""
+
     def children(self, state: FrontState, rng: np.random.Generator) -> tuple[Population, Indices]:
         """Return up to as many individuals as the population is to have, all different and none of them in it."""
         problem, known = state.problem, state.population
@@ -31,8 +35,7 @@ class Breeding(MultiObjective):
             missing = self.population - len(found)
             if missing <= 0 or len(known) == 0:
                 break
-            pairs = self.parents(state, (missing + 1) // 2, rng)
-            made = self.vary(state, pairs, rng)
+            made = self.vary(*self._couples(state, (missing + 1) // 2, rng), state, rng)
             made = made.take(representation.distinct(made)[0], 0)
             made = made.take(representation.newcomers(made, known)[:missing], 0)
             found = representation.stack(found, made) if len(found) else made
@@ -42,6 +45,20 @@ class Breeding(MultiObjective):
 
     def admitted(self, values: Floats, state: FrontState) -> Indices:
         return new_values(values, state.demes[0].values) if self.equal == "values" else np.arange(len(values))
+
+    def _couples(self, state: FrontState, pairs: int, rng: np.random.Generator) -> tuple[Population, Floats]:
+        """Return parents (2 pairs, width), each pair one after the other, and their fitness."""
+        archive = state.archive
+        of_the_archive = int(rng.binomial(pairs, self.from_archive)) if len(archive) else 0
+        chosen = np.arange(0)
+        if of_the_archive < pairs:
+            chosen = self.parents(state, pairs - of_the_archive, rng).ravel()
+        population, fitness = state.population.take(chosen, 0), state.fitness.take(chosen)
+        if of_the_archive == 0:
+            return population, fitness
+        chosen = rng.integers(len(archive), size=2 * of_the_archive)
+        population = state.problem.representation.stack(population, archive.population.take(chosen, 0))
+        return population, np.concatenate((fitness, self.fitness(archive.values.take(chosen, 0))))
 
     @abstractmethod
     def parents(self, state: FrontState, pairs: int, rng: np.random.Generator) -> Indices:

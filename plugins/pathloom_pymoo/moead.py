@@ -60,7 +60,9 @@ class Moead(MultiObjective):
         selection = NeighborhoodSelection(prob=self.near)
         pairs = selection._do(None, state.population, n, 2, neighbors=near, random_state=rng)
         either = 2 * np.arange(n) + rng.integers(2, size=n)
-        return self.vary(state, pairs, rng).take(either, 0), served
+        parents = pairs.ravel()
+        made = self.vary(state.population.take(parents, 0), state.fitness.take(parents), state, rng)
+        return made.take(either, 0), served
 
     def survivors(
         self, values: Floats, violation: Floats, served: Indices, state: FrontState, rng: np.random.Generator

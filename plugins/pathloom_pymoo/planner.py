@@ -35,6 +35,7 @@ from pathloom import (
     Terms,
     count,
 )
+from pathloom.exact.aloof import Aloof
 from pathloom.exact.scalarised import Scalarised
 from pathloom.kernel.component import parameters
 from pathloom.kernel.constraint import Constraint
@@ -68,11 +69,11 @@ class MultiObjective(FrontPlanner):
     """Two to five. Weights only choose the one answer of ``plan`` among the trade-offs."""
     constraints: tuple[Constraint, ...] = ()
     """What every answer must keep to."""
-    sampling: Sampling = Mixed(parts=(Scalarised(), PerturbedTrees()))
+    sampling: Sampling = Mixed(parts=(Scalarised(), Aloof(), PerturbedTrees()), shares=(2, 1, 1))
     """Makes the first population. What it minimises itself, left at its default, gives way to the objectives."""
     crossover: Crossover | None = SharedNode()
     """Mixes the pairs."""
-    mutation: Mutation | None = Reroute()
+    mutation: Mutation | None = Reroute(rate=0.3)
     """Changes single individuals."""
     repair: Repair | None = None
     """Mends or improves every child."""
@@ -112,17 +113,17 @@ class MultiObjective(FrontPlanner):
             violations = np.concatenate((state.violation, violation.take(kept)))
             return self._reached(state, both, violations, born, violation, served, rng, counts, began)
 
-    def vary(self, state: FrontState, pairs: Indices, rng: np.random.Generator) -> Population:
-        """Return two children for each pair (k, 2) of rows."""
+    def vary(
+        self, population: Population, fitness: Floats, state: FrontState, rng: np.random.Generator
+    ) -> Population:
+        """Return two children for each two rows of parents (2 k, width), pair after pair; ``fitness`` (2 k,)."""
         problem, progress = state.problem, self.progress(state)
-        chosen = pairs.ravel()
-        population, fitness = state.population.take(chosen, 0), state.fitness.take(chosen)
         if self.crossover is not None:
             rates: Floats | float = self.crossover.rate
             if self.crossover.probability is not None:  # a pair goes by its fitter parent
                 rates = self.crossover.rates(fitness, progress).reshape(-1, 2)
                 rates = np.take_along_axis(rates, fitness.reshape(-1, 2).argmax(axis=1)[:, np.newaxis], 1)[:, 0]
-            crossed = (rng.random(len(pairs)) < rates).nonzero()[0]
+            crossed = (rng.random(len(population) // 2) < rates).nonzero()[0]
             population = self.crossover.cross(population, np.stack((2 * crossed, 2 * crossed + 1), 1), problem, rng)
         if self.mutation is not None:
             adaptive = self.mutation.probability is not None
@@ -187,13 +188,17 @@ class MultiObjective(FrontPlanner):
     def _measured(self) -> list[Objective]:
         return list(self.objectives.objectives())
 
+    def fitness(self, values: Floats) -> Floats:
+        """Return minus the weighted sums of values (n, m): what is reported, the algorithm does not go by it."""
+        return np.asarray(-(values @ self._weights))
+
     @cached_property
     def _weights(self) -> Floats:
         return self.objectives.weights
 
     def _deme(self, population: Population, values: Floats) -> Deme:
-        """Return a population with its fitness, minus the weighted sum: the algorithm does not go by it."""
-        return Deme(population, values, -(values @ self._weights), np.arange(len(population)))
+        """Return a population with its values and fitness."""
+        return Deme(population, values, self.fitness(values), np.arange(len(population)))
 
     def _reached(
         self, before: FrontState, both: Deme, violations: Floats, born: Deme, violation: Floats, served: Indices,
@@ -214,7 +219,7 @@ class MultiObjective(FrontPlanner):
             population, values = born.population.take(feasible, 0), born.values.take(feasible, 0)
             front, changed = merged(front, population, values, before.problem.representation)
         if changed:
-            fitness = -(front.values @ self._weights)
+            fitness = self.fitness(front.values)
             best = self._individual(front, int(fitness.argmax()), fitness, generation)
             answer = self._individual(front, compromise(front.values, self._weights), fitness, generation)
         state = Search.recorded(before, deme, best, generation, rng, counts, began)

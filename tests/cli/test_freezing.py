@@ -78,7 +78,10 @@ def test_a_frozen_config_names_every_default(cli) -> None:
         "use": "memetic",
         "learning": {
             "use": "in-turn",
-            "steps": [{"use": "loom/string-pulling", "sweeps": 20}, {"use": "loom/gene-pool", "halo": 2, "room": 20000}],
+            "steps": [
+                {"use": "loom/string-pulling", "sweeps": 20},
+                {"use": "loom/gene-pool", "halo": 2, "room": 20000},
+            ],
         },
         "polish": {"use": "loom/band-search", "radius": 2, "rounds": 5},
         "elite": 1,

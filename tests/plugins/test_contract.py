@@ -10,9 +10,12 @@ import pathloom as pl
 from pathloom.kernel.component import parameters
 from pathloom.kernel.compose import build, freeze
 from pathloom.kernel.counting import counting
+from pathloom.kernel.immigrants import RandomImmigrants
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import run
 from pathloom.paths.maps import MapFamily
+
+from .filled import FILLED
 
 ENTRIES = list(default_registry().all_entries())
 BUILDABLE = [e for e in ENTRIES if not any(p.required for p in parameters(e.component))]
@@ -20,10 +23,12 @@ MAPS = ("iga-map1", "imaga-fig1", "blocks-12:20%:s3", "random-9:10:s1", "empty-5
 POLICIES = ("strict", "no-squeeze", "allow")
 
 
-def of(kind):
+def of(kind, but=()):
     found = [e for e in BUILDABLE if issubclass(e.component, kind) and e.component.works_on in ("", "cells")]
     assert found
-    return pytest.mark.parametrize("component", [e.component() for e in found], ids=[e.name for e in found])
+    filled = [c for c in FILLED if isinstance(c, kind) and not isinstance(c, but)]
+    components = [e.component() for e in found] + filled
+    return pytest.mark.parametrize("component", components, ids=[e.name for e in found] + [c.name for c in filled])
 
 
 def problems():
@@ -65,6 +70,13 @@ def test_every_component_is_frozen_hashable_picklable_and_rebuilt_from_its_table
     assert hash(component) == hash(entry.component())
     assert pickle.loads(pickle.dumps(component)) == component
     assert build(entry.component, freeze(component), default_registry(), "") == component
+
+
+@pytest.mark.parametrize("component", FILLED, ids=lambda c: c.name)
+def test_every_component_of_parts_is_frozen_hashable_picklable_and_rebuilt_from_its_table(component):
+    assert hash(component) == hash(pickle.loads(pickle.dumps(component)))
+    assert pickle.loads(pickle.dumps(component)) == component
+    assert build(type(component), freeze(component), default_registry(), "") == component
 
 
 @pytest.mark.parametrize(
@@ -141,7 +153,7 @@ def test_mutants_are_valid_and_the_others_untouched(component):
             )
 
 
-@of(pl.Mutation)
+@of(pl.Mutation, but=RandomImmigrants)
 def test_a_path_without_interior_is_left_alone_and_counted(component):
     problem = pl.PathProblem(pl.load_map("empty-5"), start=(0, 0), goal=(1, 1))
     population = problem.representation.encode([np.array([(0, 0), (1, 1)])])

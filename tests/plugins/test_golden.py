@@ -6,6 +6,10 @@ import pathloom as pl
 from pathloom.kernel.registry import default_registry
 
 GOLDEN = {  # length, turns, generations, evaluations
+    ("loom", "iga-map1", "allow", 7): (13.790083, 4, 3, 243),
+    ("loom", "blocks-30:25%", "strict", 0): (43.101522, 3, 3, 243),
+    ("loom", "random-20:75:s3", "no-squeeze", 1): (27.311295, 6, 3, 243),
+    ("loom", "random-50:30%:s2", "strict", 3): (74.487678, 16, 3, 243),
     ("imga", "iga-map1", "allow", 7): (13.790083, 4, 46, 4700),
     ("imga", "blocks-30:25%", "strict", 0): (43.257453, 3, 50, 5100),
     ("imga", "random-20:75:s3", "no-squeeze", 1): (27.311295, 6, 50, 5100),

@@ -8,6 +8,8 @@ from pathloom.kernel.compose import build, compose
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import run
 
+from .filled import FILLED
+
 ENTRIES = [e for e in default_registry().all_entries() if not any(p.required for p in parameters(e.component))]
 PLANNERS = [e for e in ENTRIES if issubclass(e.component, pl.Evolution)]
 SLOTS = {p.name: p.slot for e in PLANNERS for p in parameters(e.component) if p.slot is not None}
@@ -51,6 +53,15 @@ def test_each_component_runs_in_planners_of_other_plugins(slot, entry):
         ran += 1
     assert ran, refused
     assert all(entry.component.name in reason for reason in refused)
+
+
+@pytest.mark.parametrize("component", FILLED, ids=lambda c: c.name)
+def test_each_component_of_parts_runs_in_planners_of_every_plugin(component):
+    slots = [slot for slot, kind in SLOTS.items() if isinstance(component, kind)]
+    assert slots
+    for planner in {p.source.namespace: p for p in PLANNERS}.values():
+        for slot in slots:
+            answers(short(planner.name, **{slot: component}))
 
 
 @pytest.mark.parametrize("slot", ["crossover", "mutation"])

@@ -12,10 +12,13 @@ import pytest
 from scipy.stats import ks_2samp
 
 import pathloom as pl
-from pathloom.kernel.component import members, parameters
+from pathloom.kernel.component import Component, parameters
 from pathloom.kernel.compose import build, compose
+from pathloom.kernel.front import FrontPlanner
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.run import run
+
+from .filled import FILLED
 
 ENTRIES = [e for e in default_registry().all_entries() if not any(p.required for p in parameters(e.component))]
 SYMMETRIES = [(turns, mirrored) for mirrored in (False, True) for turns in range(4)]
@@ -28,7 +31,9 @@ def in_integers(component):
 
     A falling diagonal is sampled from one of its two ends, and the sums of steps depend on which.
     """
-    changes = {name: in_integers(part) for name, part in members(component)}
+    parts = {p.name: getattr(component, p.name) for p in parameters(type(component))}
+    changes = {name: in_integers(part) for name, part in parts.items() if isinstance(part, Component)}
+    changes |= {p.name: tuple(map(in_integers, parts[p.name])) for p in parameters(type(component)) if p.slots}
     if getattr(component, "arithmetic", "exact") == "floating":
         changes["arithmetic"] = "exact"
     return dataclasses.replace(component, **changes) if changes else component
@@ -37,7 +42,9 @@ def in_integers(component):
 def of(kind):
     found = [e for e in ENTRIES if issubclass(e.component, kind) and e.component.works_on in ("", "cells")]
     assert found
-    return pytest.mark.parametrize("component", [e.component() for e in found], ids=[e.name for e in found])
+    filled = [c for c in FILLED if isinstance(c, kind)]
+    components = [e.component() for e in found] + filled
+    return pytest.mark.parametrize("component", components, ids=[e.name for e in found] + [c.name for c in filled])
 
 
 class View:
@@ -163,7 +170,7 @@ def test_objectives_have_the_same_value_from_every_side(component):
             assert np.allclose(other, values[0], rtol=1e-12, atol=1e-12)
 
 
-PLANNERS = [e for e in ENTRIES if issubclass(e.component, pl.Evolution)]
+PLANNERS = [e for e in ENTRIES if issubclass(e.component, (pl.Evolution, FrontPlanner))]
 
 
 @pytest.mark.parametrize("entry", PLANNERS, ids=lambda e: e.name)
@@ -175,3 +182,34 @@ def test_planners_have_no_favourite_direction(entry):
         found.append(np.concatenate([features(view.back(p[np.newaxis]), 12) for p in paths if p is not None]))
         assert len(found[-1]) == 40
     assert_same_distribution(found)
+
+
+@pytest.mark.parametrize("corners", ["strict", "no-squeeze", "allow"])
+@pytest.mark.parametrize("name", ["dijkstra", "any-angle"])
+def test_exact_searches_find_the_same_length_from_every_side(name, corners):
+    lengths = [pl.plan(view.problem, name).length for view in views(corners)]
+    assert lengths == pytest.approx([lengths[0]] * len(lengths), rel=1e-12)
+
+
+def lengths_from_every_side(repair, name, corners):
+    """Lengths (8, n) of the repaired paths: of equally good cells the first in reading order may be taken."""
+    occupied = pl.load_map(name, corners=corners).occupied
+    ends = (len(occupied) - 1, 0), (0, len(occupied) - 1)
+    sides = [View(occupied, *ends, corners, symmetry) for symmetry in SYMMETRIES]
+    first = first_population(sides[0].problem, 40)
+    repaired = [repair.apply(side.there(first), side.problem, np.random.default_rng(0)) for side in sides]
+    return np.array([pl.compiled.measures.lengths(p, len(occupied)) for p in repaired])
+
+
+@pytest.mark.parametrize(
+    ("name", "ties"), [("loom/band-search", 0.0), ("loom/gene-pool", 0.0), ("loom/string-pulling", 0.01)]
+)
+def test_what_loom_learns_is_as_short_from_every_side(name, ties):
+    """Of cells that are equally good string pulling takes the first, which decides of its next step in rare cases."""
+    repair, other, all_ = build(pl.Repair, name, default_registry(), ""), 0, 0
+    for map_ in ("random-20:20%:s1", "random-20:30%:s2", "random-30:10%:s3", "rooms-25:5", "empty-15"):
+        for corners in ("strict", "no-squeeze", "allow"):
+            lengths = lengths_from_every_side(repair, map_, corners)
+            other += int((np.abs(lengths - lengths[0]) > 1e-9).sum())
+            all_ += lengths.size
+    assert other <= ties * all_

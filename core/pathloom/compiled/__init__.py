@@ -42,7 +42,6 @@ if TYPE_CHECKING:
     from pathloom.compiled import seeding as seeding
     from pathloom.compiled import segments as segments
     from pathloom.compiled import sight as sight
-    from pathloom.compiled import stretches as stretches
     from pathloom.compiled import taut as taut
     from pathloom.compiled import tightening as tightening
     from pathloom.compiled import trees as trees
@@ -78,7 +77,6 @@ FAMILIES = (
     "seeding",
     "segments",
     "sight",
-    "stretches",
     "taut",
     "tightening",
     "trees",

@@ -175,7 +175,7 @@ def reroute(
             closest = min(closest, distance[row[i]])
             r, c = row[i] // cols, row[i] % cols
             top, down, left, right = min(top, r), max(down, r), min(left, c), max(right, c)
-        about = below(state, margin + 1)
+        about = np.int64(math.exp(uniform(state) * math.log(margin + 1.0))) - 1
         top, left = max(top - about, 0), max(left - about, 0)
         down, right = min(down + about, rows - 1), min(right + about, cols - 1)
         wide = right - left + 1

@@ -7,6 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 
+from numpy.typing import NDArray
+
 from pathloom import compiled
 from pathloom.kernel.component import Count
 from pathloom.kernel.counting import count
@@ -70,34 +72,18 @@ class Scalarised(Sampling):
         prices = [one for one, _ in priced if one is not None]
         count("objectives not additive", len(priced) - len(prices))
         cells = problem.context.blocked.size
-        search = _Search(problem, prices, rng)
+        search = Optima(problem, prices, rng)
         if prices:
             own = np.array([weight for one, weight in priced if one is not None])
-            for weights in islice(self._weightings(own, search, rng), min(self.vectors, self.work // cells)):
+            for weights in islice(weightings(own, self.vectors, search, rng), min(self.vectors, self.work // cells)):
                 search.run(weights)
                 if len(search.paths) >= n:
                     break
-        width = max((len(path) for path in search.paths), default=1)
-        population = np.full((len(search.paths), width), -1, np.int32)
-        for row, path in zip(population, search.paths, strict=True):
-            row[: len(path)] = path
-        return population[:n]
-
-    def _weightings(self, own: Floats, search: "_Search", rng: np.random.Generator) -> Iterator[Floats]:
-        m = len(own)
-        yield own
-        if m == 1:
-            return
-        for k in range(m):
-            yield np.where(np.arange(m) == k, 1.0, ASIDE) / search.scale
-        for share in rng.permutation(_lattice(m, self.vectors)):
-            yield np.maximum(share, ASIDE) / search.scale
-        while True:
-            yield rng.dirichlet(np.ones(m)) / search.scale
+        return search.population[:n]
 
 
-class _Search:
-    """The optima found so far, and how far apart their values are."""
+class Optima:
+    """Optima of weighted sums: those found so far, and how far apart their values are."""
 
     def __init__(self, problem: PathProblem, prices: list[Prices], rng: np.random.Generator) -> None:
         self.problem, self.prices = problem, prices
@@ -114,18 +100,44 @@ class _Search:
         spread = np.where(spread > 0.0, spread, np.abs(values[0]))
         return np.where(spread > 0.0, spread, 1.0)
 
-    def run(self, weights: Floats) -> None:
-        """Find the optimum under these weights, and keep it if it is new."""
+    @property
+    def population(self) -> Population:
+        """The distinct optima, in the order in which they were found."""
+        width = max((len(path) for path in self.paths), default=1)
+        population = np.full((len(self.paths), width), -1, np.int32)
+        for row, path in zip(population, self.paths, strict=True):
+            row[: len(path)] = path
+        return population
+
+    def run(self, weights: Floats, moves: NDArray[np.uint8] | None = None) -> None:
+        """Find the optimum under these weights, and keep it if it is new; ``moves`` (cells,) are the legal steps.
+
+        There has to be a way from start to goal.
+        """
         it = self.problem.context
         step, cell, turn, zone = weighted(self.prices, weights).tables
         ties = TIE * (step.max() + cell.max(initial=0.0) + turn.max()) * self._ties
         cell = cell + ties if cell.size else ties
-        walk = compiled.headings.cheapest(it.moves, it.cols, it.start, it.goal, step, cell, turn, zone)
+        walk = compiled.headings.cheapest(it.moves if moves is None else moves, it.cols, it.start, it.goal, step, cell, turn, zone)
         path = compiled.reshaping.without_loops(walk[np.newaxis], it.blocked.size)
         self._values.append(np.array([one.along(path, self.problem)[0] for one in self.prices]))
         if path.tobytes() not in self._seen:
             self._seen.add(path.tobytes())
             self.paths.append(path[0])
+
+
+def weightings(own: Floats, most: int, search: Optima, rng: np.random.Generator) -> Iterator[Floats]:
+    """Yield one weighting (m,) after the other, without end: see `Scalarised`; ``most`` sets how fine the lattice is."""
+    m = len(own)
+    yield own
+    if m == 1:
+        return
+    for k in range(m):
+        yield np.where(np.arange(m) == k, 1.0, ASIDE) / search.scale
+    for share in rng.permutation(_lattice(m, most)):
+        yield np.maximum(share, ASIDE) / search.scale
+    while True:
+        yield rng.dirichlet(np.ones(m)) / search.scale
 
 
 def _lattice(m: int, most: int) -> Floats:

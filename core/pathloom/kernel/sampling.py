@@ -49,7 +49,8 @@ class Mixed(Sampling):
     def _sizes(self, n: int) -> NDArray[np.int64]:
         """Return how many individuals (k,) each of k parts is to make of n."""
         until = cumulative(self.parts, self.shares)
-        sizes = np.diff(np.rint(n * until).astype(np.int64), prepend=0)
+        ends = np.rint(n * until).astype(np.int64)
+        sizes = ends - np.concatenate(([0], ends[:-1]))
         left_out = (sizes == 0) & (np.diff(until, prepend=0.0) > 0.0)
         for part in left_out.nonzero()[0]:
             if sizes.max() > 1:

@@ -1,27 +1,54 @@
-"""``python -m pathloom.multiobjective``: how often the papers' weighted-sum planners land behind the front."""
+"""``python -m pathloom.multiobjective``: what the claims about fronts rest on, as tables in Markdown."""
 
 import argparse
 import sys
 
-from pathloom.multiobjective.dominance import MAPS, PAPERS, dominance, markdown
+from pathloom.multiobjective import dominance, quality, sweep
 from pathloom.multiobjective.running import DEFAULT_PLANNER
+
+OBJECTIVES = "length,unsafe-cells,turns"
 
 
 def main() -> None:
-    """Print the table in Markdown."""
+    """Print one of the tables."""
     parser = argparse.ArgumentParser(prog="python -m pathloom.multiobjective", description=__doc__)
-    parser.add_argument("--maps", default=",".join(MAPS), help="names, with commas between (default: %(default)s)")
-    parser.add_argument("--planners", default=",".join(PAPERS), help="(default: %(default)s)")
-    parser.add_argument("--algorithm", default=DEFAULT_PLANNER, help="what finds the front (default: %(default)s)")
-    parser.add_argument("--objectives", default="length,unsafe-cells,turns", help="(default: %(default)s)")
-    parser.add_argument("--corners", default="allow", help="(default: %(default)s, as in the papers)")
-    parser.add_argument("--runs", type=int, default=10, help="seeds for each planner (default: %(default)s)")
+    tables = parser.add_subparsers(dest="table", metavar="TABLE", required=True)
+    one = tables.add_parser("dominance", help="how often the papers' weighted-sum planners land behind the front")
+    one.add_argument("--maps", default=",".join(dominance.MAPS), help="with commas between (default: %(default)s)")
+    one.add_argument("--planners", default=",".join(dominance.PAPERS), help="(default: %(default)s)")
+    one.add_argument("--corners", default="allow", help="(default: %(default)s, as in the papers)")
+    one.add_argument("--objectives", default=OBJECTIVES, help="(default: %(default)s)")
+    two = tables.add_parser("quality", help="how much of the exact front is found in a given time")
+    two.add_argument("--maps", default=",".join(quality.MAPS), help="with commas between (default: %(default)s)")
+    two.add_argument("--seconds", type=float, help="processor time of a run; by default as the map is large")
+    two.add_argument("--objectives", default=OBJECTIVES, help="(default: %(default)s)")
+    three = tables.add_parser("sweep", help="the front beside 66 exact searches, of length, clearance and turn angle")
+    three.add_argument("files", nargs="+", help="Moving AI scenarios (.scen) and maps")
+    for table, runs in ((one, 10), (two, 10), (three, 5)):
+        table.add_argument("--algorithm", default=DEFAULT_PLANNER, help="finds the front (default: %(default)s)")
+        table.add_argument("--runs", type=int, default=runs, help="seeds (default: %(default)s)")
     asked = parser.parse_args()
-    standings = dominance(
+    {"dominance": _dominance, "quality": _quality, "sweep": _sweep}[asked.table](asked)
+
+
+def _dominance(asked: argparse.Namespace) -> None:
+    standings = dominance.dominance(
         asked.maps.split(","), asked.planners.split(","), algorithm=asked.algorithm,
         objectives=asked.objectives.split(","), corners=asked.corners, runs=asked.runs,
     )  # fmt: skip
-    sys.stdout.write(markdown(list(standings)))
+    sys.stdout.write(dominance.markdown(list(standings)))
+
+
+def _quality(asked: argparse.Namespace) -> None:
+    rows = quality.quality(
+        asked.maps.split(","), asked.algorithm, objectives=asked.objectives.split(","), seconds=asked.seconds,
+        runs=asked.runs,
+    )  # fmt: skip
+    sys.stdout.write(quality.markdown(list(rows)))
+
+
+def _sweep(asked: argparse.Namespace) -> None:
+    sys.stdout.write(sweep.markdown(list(sweep.sweeps(asked.files, asked.algorithm, runs=asked.runs))))
 
 
 if __name__ == "__main__":

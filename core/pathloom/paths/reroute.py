@@ -33,7 +33,7 @@ class Reroute(Mutation):
     rate: Share = 0.5
     longest: Annotated[int, msgspec.Meta(ge=2, le=2**31 - 1)] = 60
     """Most steps of the stretch."""
-    margin: Whole = 4
+    margin: Whole = 12
     """How far from the stretch's bounding box the new way may lead, in cells, at most."""
     spread: NonNegative = 1.0
     """A cell stretches the length of a step by at most this share."""
