@@ -1,7 +1,11 @@
 """loom: the default planner."""
 
+import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from pathloom import Count, Crossover, Evolution, Mutation, Sampling, Selection, Survival, Termination, Terms
 from pathloom.exact.scalarised import Scalarised
@@ -12,6 +16,7 @@ from pathloom.kernel.mutation import OneOf
 from pathloom.kernel.repair import InTurn
 from pathloom.kernel.sampling import Mixed
 from pathloom.kernel.selection import Tournament
+from pathloom.kernel.state import Individual, State, generator
 from pathloom.kernel.survival import BestOfBoth
 from pathloom.kernel.termination import MaxGenerations, Stagnation
 from pathloom.paths.exchange import SharedNode
@@ -21,6 +26,9 @@ from pathloom.paths.tree_seeding import PerturbedTrees
 from pathloom_loom.band import BandSearch
 from pathloom_loom.pool import GenePool
 from pathloom_loom.pulling import StringPulling
+
+ROUNDING = 1e-12
+"""Share by which sums over the same way differ."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,3 +61,10 @@ class Loom(Evolution):
     survival: Survival = BestOfBoth(distinct=True)
     control: Control = Memetic(learning=InTurn(steps=(StringPulling(), GenePool())), polish=BandSearch(), elite=1)
     termination: tuple[Termination, ...] = (MaxGenerations(limit=50), Stagnation(patience=2))
+
+    def solution(self, state: State, answer: Individual) -> NDArray[Any]:
+        """Return the answer without superfluous points where it is as fit: sums of more parts are rounded otherwise."""
+        fewer = StringPulling(sweeps=0).apply(answer.row[np.newaxis], state.problem, generator(state.random))
+        fitness = self.evaluate(fewer, state.problem).fitness[0]
+        equal = math.isclose(fitness, answer.fitness, rel_tol=ROUNDING)
+        return np.asarray(fewer[0] if equal else answer.row)

@@ -69,7 +69,7 @@ class MultiObjective(FrontPlanner):
     """Two to five. Weights only choose the one answer of ``plan`` among the trade-offs."""
     constraints: tuple[Constraint, ...] = ()
     """What every answer must keep to."""
-    sampling: Sampling = Mixed(parts=(Scalarised(), Aloof(), PerturbedTrees()), shares=(2, 1, 1))
+    sampling: Sampling = Mixed(parts=(Aloof(rest=Scalarised()), PerturbedTrees()))
     """Makes the first population. What it minimises itself, left at its default, gives way to the objectives."""
     crossover: Crossover | None = SharedNode()
     """Mixes the pairs."""

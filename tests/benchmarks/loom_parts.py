@@ -45,6 +45,7 @@ VARIANTS = {
     "without string pulling": learning(POOL),
     "without gene pool": learning(PULLING),
     "gene pool of the points alone (halo 0)": learning(PULLING, POOL | {"halo": 0}),
+    "gene pool with halo 1": learning(PULLING, POOL | {"halo": 1}),
     "without band search": {"control": {"polish": "none"}},
     "band search on the best 5": {"control": {"elite": 5}},
     "without learning and band search": {"control": {"learning": "none", "polish": "none"}},
@@ -61,8 +62,7 @@ VARIANTS = {
     "patience 1": ends(1),
     "patience 5": ends(5),
     "patience 10": ends(10),
-    "best 5, patience 5": {"control": {"elite": 5}} | ends(5),
-    "halo 1": learning(PULLING, POOL | {"halo": 1}),
+    "band search on the best 5, patience 5": {"control": {"elite": 5}} | ends(5),
 }
 
 

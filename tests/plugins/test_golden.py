@@ -48,13 +48,13 @@ GOLDEN = {  # length, turns, generations, evaluations
     ("any-angle", "random-20:75:s3", "strict", 0): (28.317904, 5, 0, 1),
     ("rrt", "random-20:75:s3", "strict", 0): (40.131185, 23, 1, 1),
     ("s-rrt", "random-20:75:s3", "strict", 0): (28.738856, 5, 1, 1),
-    ("nsga2", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3261),
-    ("nsga3", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3614),
-    ("sms-emoa", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3496),
-    ("age-moea", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3472),
+    ("nsga2", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 2222),
+    ("nsga3", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 2226),
+    ("sms-emoa", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 2361),
+    ("age-moea", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 2256),
     ("moead", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 4633),
-    ("rvea", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3112),
-    ("spea2", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 3405),
+    ("rvea", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 2233),
+    ("spea2", "random-20:75:s3", "allow", 0): (29.213203, 4, 50, 2232),
 }
 
 

@@ -140,6 +140,16 @@ def test_odd_maps_have_the_exact_optimum_as_well(case, corners):
     assert length is None or result.length == pytest.approx(length, abs=1e-9)
 
 
+@pytest.mark.parametrize("corners", POLICIES)
+def test_its_path_has_no_superfluous_points(corners):
+    for name in ("empty-9", "empty-5", "empty-30", "random-20:10%:s1", "random-20:30%:s5", "rooms-25:5", "maze-21:1"):
+        for seed in range(3):
+            path = pl.plan(problem_on(name, corners), "loom", seed=seed).path
+            steps = np.diff(path, axis=0)
+            across = steps[:-1, 0] * steps[1:, 1] - steps[:-1, 1] * steps[1:, 0]
+            assert across.all(), (name, seed, path.tolist())
+
+
 def test_a_goal_behind_a_wall_is_unreachable():
     occupied = np.zeros((5, 5), bool)
     occupied[2] = True

@@ -1,7 +1,8 @@
 """The driver: it keeps lanes busy, and no more than that."""
 
+import time
 from collections import deque
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
 import pytest
@@ -72,6 +73,26 @@ def test_every_order_is_answered_once_and_few_are_under_way():
     assert sorted(order.seed for order, _, _ in answers) == list(range(9))
     assert all(attempts == 1 for _, _, attempts in answers)
     assert max(lane.most for lane in lanes) <= 2
+
+
+def test_no_lane_has_more_under_way_than_it_has_room_for():
+    class Slow(Scripted):
+        def __init__(self):
+            super().__init__(fine)
+            self.pool = ThreadPoolExecutor(1)
+
+        def send(self, order):
+            future = self.pool.submit(lambda: time.sleep(0.002 * (order.seed % 3)) or fine(order, []))
+            self.flying[future] = order
+            self.most = max(self.most, len(self.flying))
+            return future
+
+    lanes, answers = [Slow(), Slow()], []
+    execute(iter(orders(40)), lanes, parts=str.encode, record=answers.extend)
+    for lane in lanes:
+        lane.pool.shutdown()
+    assert [lane.most for lane in lanes] == [2, 2]
+    assert sorted(order.seed for order, _, _ in answers) == list(range(40))
 
 
 def test_orders_are_drawn_only_when_there_is_room():

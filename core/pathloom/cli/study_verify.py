@@ -1,4 +1,4 @@
-"""``pathloom study verify``: can what a bundle says be repeated?"""
+"""``pathloom study verify``: whether what a bundle says can be repeated."""
 
 from typing import Any
 
@@ -49,7 +49,9 @@ def command(ctx: click.Context, /, bundle: str, **options: Any) -> None:
         out = console.out()
         for it in found.checks:
             if not it.same:
-                out.print(f"{it.variant} on {it.map}, seed {it.seed}: differs in {', '.join(it.differs)}", soft_wrap=True)
+                out.print(
+                    f"{it.variant} on {it.map}, seed {it.seed}: differs in {', '.join(it.differs)}", soft_wrap=True
+                )
         same = sum(it.same for it in found.checks)
         out.print(f"{same} of {len(found.checks)} runs are as they were, of {found.runs} in the bundle", soft_wrap=True)
         if not options["quiet"]:

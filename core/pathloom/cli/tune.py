@@ -60,7 +60,7 @@ def command(ctx: click.Context, /, **options: Any) -> None:
 def _run(plan: Any, places: Any, budget: Any, limit: float | None, options: dict[str, Any]) -> int:
     from pathloom.cli import DONE, console
     from pathloom.study import carry_out
-    from pathloom.study.tuning.tune import tuned
+    from pathloom.study.tuning.experiment import tuned
 
     with studying.named("measure", "confirm", "runs", "seed", "time-limit", "maps", "budget"):
         try:

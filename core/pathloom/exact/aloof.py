@@ -46,11 +46,11 @@ class Aloof(Sampling):
 
     objectives: Terms = USUAL
     """What is weighted. Left as it is, it stands for the objectives of the planner."""
-    distances: Count = 12
+    distances: Count = 24
     """How many distances there are."""
     vectors: Count = 66
     """How many searches are made at most, over all distances."""
-    work: Count = 6_000_000
+    work: Count = 12_000_000
     """Limit of searches times cells of the map: on large maps fewer are made, or none."""
     rest: Sampling = PerturbedTrees()
     """Makes the individuals that are still missing."""

@@ -3,8 +3,14 @@
 import argparse
 import sys
 
-from pathloom.multiobjective import dominance, quality, sweep
+from pathloom.multiobjective.dominance import MAPS, PAPERS, dominance
+from pathloom.multiobjective.dominance import markdown as table_of_dominance
+from pathloom.multiobjective.quality import MAPS as TIMED
+from pathloom.multiobjective.quality import markdown as table_of_quality
+from pathloom.multiobjective.quality import quality
 from pathloom.multiobjective.running import DEFAULT_PLANNER
+from pathloom.multiobjective.sweep import markdown as table_of_sweeps
+from pathloom.multiobjective.sweep import sweeps
 
 OBJECTIVES = "length,unsafe-cells,turns"
 
@@ -14,12 +20,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m pathloom.multiobjective", description=__doc__)
     tables = parser.add_subparsers(dest="table", metavar="TABLE", required=True)
     one = tables.add_parser("dominance", help="how often the papers' weighted-sum planners land behind the front")
-    one.add_argument("--maps", default=",".join(dominance.MAPS), help="with commas between (default: %(default)s)")
-    one.add_argument("--planners", default=",".join(dominance.PAPERS), help="(default: %(default)s)")
+    one.add_argument("--maps", default=",".join(MAPS), help="with commas between (default: %(default)s)")
+    one.add_argument("--planners", default=",".join(PAPERS), help="(default: %(default)s)")
     one.add_argument("--corners", default="allow", help="(default: %(default)s, as in the papers)")
     one.add_argument("--objectives", default=OBJECTIVES, help="(default: %(default)s)")
     two = tables.add_parser("quality", help="how much of the exact front is found in a given time")
-    two.add_argument("--maps", default=",".join(quality.MAPS), help="with commas between (default: %(default)s)")
+    two.add_argument("--maps", default=",".join(TIMED), help="with commas between (default: %(default)s)")
     two.add_argument("--seconds", type=float, help="processor time of a run; by default as the map is large")
     two.add_argument("--objectives", default=OBJECTIVES, help="(default: %(default)s)")
     three = tables.add_parser("sweep", help="the front beside 66 exact searches, of length, clearance and turn angle")
@@ -32,23 +38,23 @@ def main() -> None:
 
 
 def _dominance(asked: argparse.Namespace) -> None:
-    standings = dominance.dominance(
+    standings = dominance(
         asked.maps.split(","), asked.planners.split(","), algorithm=asked.algorithm,
         objectives=asked.objectives.split(","), corners=asked.corners, runs=asked.runs,
     )  # fmt: skip
-    sys.stdout.write(dominance.markdown(list(standings)))
+    sys.stdout.write(table_of_dominance(list(standings)))
 
 
 def _quality(asked: argparse.Namespace) -> None:
-    rows = quality.quality(
+    rows = quality(
         asked.maps.split(","), asked.algorithm, objectives=asked.objectives.split(","), seconds=asked.seconds,
         runs=asked.runs,
     )  # fmt: skip
-    sys.stdout.write(quality.markdown(list(rows)))
+    sys.stdout.write(table_of_quality(list(rows)))
 
 
 def _sweep(asked: argparse.Namespace) -> None:
-    sys.stdout.write(sweep.markdown(list(sweep.sweeps(asked.files, asked.algorithm, runs=asked.runs))))
+    sys.stdout.write(table_of_sweeps(list(sweeps(asked.files, asked.algorithm, runs=asked.runs))))
 
 
 if __name__ == "__main__":

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from pathloom import compiled
 from pathloom.exact.aloof import distances, moves_at
 from pathloom.exact.scalarised import ASIDE, Optima
 from pathloom.fronts.indicators import hypervolume, non_dominated, reference_point
@@ -100,7 +99,7 @@ def far_apart(path: str) -> PathProblem:
     """Return a problem whose ends lie far apart and clear of obstacles.
 
     Of a scenario: the case of at least `FAR` whose ends are farthest from obstacles.
-    Of a map: its widest spot, and the farthest one from there that is half as wide.
+    Of a map: its widest spot, and of those half as wide that can be reached the farthest one, as the crow flies.
     """
     if path.endswith(".scen"):
         scenario = read_scenario(path)
@@ -114,10 +113,12 @@ def far_apart(path: str) -> PathProblem:
     free = np.argwhere(~grid.occupied)
     context = PathProblem(grid, start=tuple(free[0]), goal=tuple(free[0])).context
     widest = int(np.argmax(context.distance))
-    away = compiled.search.dijkstra(context.moves, context.cols, widest)
-    roomy = np.isfinite(away) & (context.distance >= 0.5 * context.distance[widest])
-    goal = int(np.argmax(np.where(roomy, away, -1.0)))
-    return PathProblem(grid, start=divmod(widest, context.cols), goal=divmod(goal, context.cols))
+    start = divmod(widest, context.cols)
+    rows, cols = np.indices((context.rows, context.cols))
+    away = np.hypot(rows - start[0], cols - start[1])
+    roomy = (context.distance >= 0.5 * context.distance[widest]).reshape(away.shape)
+    roomy &= PathProblem(grid, start=start, goal=start).context.component
+    return PathProblem(grid, start=start, goal=divmod(int(np.argmax(np.where(roomy, away, -1.0))), context.cols))
 
 
 def markdown(rows: Sequence[Sweep]) -> str:

@@ -110,15 +110,16 @@ def _members(study: Study, file: str) -> Iterator[tuple[str, bytes]]:
                 "optimum": {"grid": known.grid, "any_angle": known.any_angle, "any_angle_bound": known.any_angle_bound},
             }
         )
-    facts = study.facts
+    facts, changes = study.facts, study.changes
     design = {
         "schema": SCHEMA,
         **{name: facts[name] for name in ("kind", "created", "runs", "seed", "budget", "time_limit", "notes")},
-        "variants": [{"name": n, "config": c, "changes": study.changes[n]} for n, c in configs.items()],
+        "variants": [{"name": n, "config": c, "changes": changes[n]} for n, c in configs.items()],
         "instances": places,
         "versions": study.versions,
     }
-    first, version = places[0], facts["versions"]["pathloom"]
+    first: dict[str, Any] = places[0]
+    version = facts["versions"]["pathloom"]
     yield "README.md", README.format(
         name=Path(study.name).stem, kind={"ablate": "Ablation", "compare": "Comparison"}.get(study.kind, study.kind),
         variants=len(configs), maps=len(places), done=len(study), version=version, file=file,
@@ -126,8 +127,8 @@ def _members(study: Study, file: str) -> Iterator[tuple[str, bytes]]:
         goal=",".join(map(str, first["goal"])), corners=first["corners"], radius=first["radius"], seed=facts["seed"],
     ).encode()  # fmt: skip
     yield DESIGN, json.dumps(design, indent=1).encode()
-    for variant, name in configs.items():
-        yield name, tomli_w.dumps({"planner": study.variants[variant]}).encode()
+    for variant, config in study.variants.items():
+        yield configs[variant], tomli_w.dumps({"planner": config}).encode()
     yield from maps.values()
     with tempfile.TemporaryDirectory() as folder:
         table, copy = Path(folder) / "results.csv", Path(folder) / STORE

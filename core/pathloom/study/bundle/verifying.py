@@ -119,8 +119,8 @@ def _verified(
 ) -> Verification:  # fmt: skip
     keys = list(
         store.reading(
-            "SELECT v.name, i.name, r.seed, r.id FROM runs r JOIN variants v ON v.id = r.variant "
-            f"JOIN instances i ON i.id = r.instance WHERE r.status IN {REPEATABLE} "  # noqa: S608 - names of ours
+            "SELECT v.name, i.name, r.seed, r.id FROM runs r JOIN variants v ON v.id = r.variant "  # noqa: S608 - ours
+            f"JOIN instances i ON i.id = r.instance WHERE r.status IN {REPEATABLE} "
             "ORDER BY r.instance, r.seed, r.variant"
         )
     )

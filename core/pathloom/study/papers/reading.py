@@ -71,7 +71,9 @@ def _text(asked: str) -> tuple[str, Path | None]:
     if asked in known:
         return (files("pathloom.study.papers") / f"{asked}.toml").read_text("utf-8"), None
     if not asked.endswith(".toml"):
-        raise ConfigError(f"found {asked!r}, allowed a file in TOML or one of the papers' studies; {closest(asked, known)}")
+        raise ConfigError(
+            f"found {asked!r}, allowed a file in TOML or one of the papers' studies; {closest(asked, known)}"
+        )
     try:
         return Path(asked).read_text("utf-8"), Path(asked).parent
     except FileNotFoundError:

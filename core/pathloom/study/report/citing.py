@@ -118,7 +118,8 @@ STATISTICS = {
 """,
     ),
     "ranks": Work(
-        "J. Demšar (2006), Statistical comparisons of classifiers over multiple data sets, J. Mach. Learn. Res. 7, 1-30",
+        "J. Demšar (2006), Statistical comparisons of classifiers over multiple data sets, "
+        "J. Mach. Learn. Res. 7, 1-30",
         """\
 @article{demsar2006,
   author  = {Dem{\\v{s}}ar, Janez},

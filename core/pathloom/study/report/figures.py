@@ -1,6 +1,7 @@
 """The figures of a report: which there are, and what a reader sees in each."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -31,6 +32,10 @@ WIDTH = 3.7
 """Inches."""
 MOST_HISTORIES = 4000
 """Runs whose history is read; of more, as many are taken, evenly from all variants, maps and seeds."""
+HIGHEST = 0.5
+"""Gap up to which convergence is drawn; first paths at random are off by hundreds of percent."""
+CROWDED = 60.0
+"""Ratio of the ends of an axis from which only powers of ten have room on it."""
 MOST_VARIANTS = 8
 """Variants that a figure with lines shows: as many as there are colours."""
 
@@ -51,7 +56,7 @@ def figures(study: Study, summary: Summary, rows: Sequence[Row]) -> list[Plot]:
 
 
 def sharpest(summary: Summary) -> Metric:
-    """Return the metric that a report is about: the sharpest gap that is known, else what fronts dominate, or length."""
+    """Return the metric that a report is about: the sharpest gap known, else what fronts dominate, or length."""
     names = (*GAPS, "hypervolume_ratio", "hypervolume", "length", "success")
     return METRICS[next(name for name in names if name in summary.metrics)]
 
@@ -92,7 +97,8 @@ class _Figures:
             "ranks",
             f"Critical difference: {self.metric.label}",
             figure,
-            f"Average rank over {ranking.instances} maps, 1 is best. A bar joins variants that {how} cannot tell apart.",
+            f"Average rank over {ranking.instances} maps, 1 is best. A bar joins variants that {how} cannot tell "
+            "apart.",
         )
 
     def spread(self) -> Iterator[Plot]:
@@ -159,12 +165,20 @@ class _Figures:
             it = band(mine, grid)
             curves[variant] = Curve(it.evaluations, it.median, it.low, it.high)
         figure = draw.bands_figure(curves, y_label="gap to the optimum", percent=True, width=WIDTH)
+        axes = figure.axes[0]
+        cut = axes.get_ylim()[1] > HIGHEST
+        above = f" Gaps above {100 * HIGHEST:g} % are cut off." if cut else ""
+        if cut:
+            axes.set_ylim(-0.02 * HIGHEST, HIGHEST)
+        low, high = axes.get_xlim()
+        if high > CROWDED * low:
+            axes.set_xticks([10.0**k for k in range(12) if low <= 10.0**k <= high])
         return self.plot(
             "convergence",
             "Convergence",
             figure,
             "The gap of the best path so far, refined as the final answer is, over all maps: median and quartiles. A "
-            f"line begins where half of the runs have a path.{taken}{self.rest}",
+            f"line begins where half of the runs have a path.{above}{taken}{self.rest}",
         )
 
     def _targets(self, found: Sequence[tuple[str, float, Any, Any]], taken: str) -> Plot:
@@ -195,7 +209,8 @@ class _Figures:
             "profile",
             f"Performance profile: {metric.label}",
             figure,
-            f"On which share of the maps a variant needs at most so many times the least of all, by median {metric.label}."
+            f"On which share of the maps a variant needs at most so many times the least of all, by median "
+            f"{metric.label}."
             f" A line that ends below 100 % fails on the other maps.{self.rest}",
         )
 
@@ -212,16 +227,19 @@ class _Figures:
 
     def main_effects(self) -> Iterator[Plot]:
         """Yield what each factor does, where several were changed at once."""
-        changes = self.study.changes
+        changes, configs = self.study.changes, self.study.variants
         if not any(len(changed) > 1 for changed in changes.values()):
             return
         levels: dict[str, dict[str, list[float]]] = {}
         scale = 100.0 if self.metric.unit == "%" else 1.0
         medians = {it.variant: it.medians.get(self.metric.name) for it in self.summary.overall}
         for factor in dict.fromkeys(slot for changed in changes.values() for slot in changed):
+            tried = {changed[factor] for changed in changes.values() if factor in changed}
             for variant, changed in changes.items():
+                if self.study.kind == "tune" and not (changed or own(configs[variant], factor) in tried):
+                    continue  # the base, where it is no part of the design
                 value = medians.get(variant)
-                level = changed.get(factor, own(self.study.variants[variant], factor))
+                level = changed.get(factor, own(configs[variant], factor))
                 if value is not None:
                     levels.setdefault(factor, {}).setdefault(level, []).append(scale * value)
         effects = [_effect(factor, found) for factor, found in levels.items() if len(found) > 1]
@@ -253,6 +271,8 @@ def own(config: Mapping[str, Any], slot: str) -> str:
 
 
 def _effect(factor: str, found: Mapping[str, Sequence[float]]) -> Effect:
+    with suppress(ValueError):  # numbers go up, whatever came first
+        found = dict(sorted(found.items(), key=lambda it: float(it[0])))
     values = [np.asarray(v, np.float64) for v in found.values()]
     errors: Floats = np.array([v.std(ddof=1) / np.sqrt(len(v)) if len(v) > 1 else np.nan for v in values])
     return Effect(factor, list(found), np.array([v.mean() for v in values]), errors)

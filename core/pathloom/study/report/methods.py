@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from pathloom.errors import PathloomError
 from pathloom.study.report.citing import Work, key_of, planners, statistics
 from pathloom.study.report.figures import own
 from pathloom.study.statistics.summary import Summary
@@ -66,11 +67,20 @@ class Methods:
 
 def methods(study: Study, summary: Summary) -> Methods:
     """Return how the study was made."""
-    used = planners(study.planner(name) for name in study.variants)
+    built, absent = [], []
+    for name in study.variants:
+        try:
+            built.append(study.planner(name))
+        except PathloomError:  # a plugin is not installed here; the study can be read all the same
+            absent.append(name)
+    used = planners(built)
     tools = list(statistics(summary))
     works = [*used, *(work for _, work in tools)]
     cited = {name: works.index(work) + 1 for name, work in tools}
-    return Methods(tuple(_Telling(study, summary, used, cited).all()), tuple(works))
+    said = [*_Telling(study, summary, used, cited).all()]
+    if absent:
+        said.append(f"Parts of {_and(absent)} are not installed where this was written, and are not cited.")
+    return Methods(tuple(said), tuple(works))
 
 
 class _Telling:
@@ -170,6 +180,7 @@ def _count(number: int, what: str) -> str:
 
 
 def _and(words: Sequence[str], last: str = "and") -> str:
+    words = [f"“{word}”" if "," in word else word for word in words]
     if len(words) > 12:
         words = [*words[:11], f"{len(words) - 11} more"]
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} {last} {words[-1]}" if words else ""

@@ -1,7 +1,7 @@
 """The report of a study: what was asked, what came of it, and how it was done, in one HTML file."""
 
-from collections.abc import Sequence
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -58,7 +58,7 @@ def report(study: Study, *, baseline: str | None = None, alpha: float = 0.05) ->
         loader=PackageLoader("pathloom.study.report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True, keep_trailing_newline=True,
     )  # fmt: skip
-    pages.filters["joints"] = joints
+    pages.filters |= {"joints": joints, "units": lambda text: text.replace(" %", "\N{NO-BREAK SPACE}%")}
     return pages.get_template("report.html").render(
         study=study,
         name=Path(study.name).name,
@@ -111,7 +111,10 @@ def _lead(found: Summary) -> str:
 def _in_order(found: Summary, metric: Metric) -> tuple[list[Verdict], list[Verdict]]:
     """Return what the tests say: of success and the main metric, and what was shown; then all the rest."""
     first = (SUCCESS.name, metric.name)
-    ordered = sorted(found.verdicts, key=lambda it: (it.metric not in first, not it.shown))
+    ordered = sorted(
+        found.verdicts,
+        key=lambda it: (first.index(it.metric) if it.metric in first else len(first), not it.shown),
+    )
     said = sum(it.metric in first or it.shown for it in ordered)
     return ordered[: min(said, MOST_SAID)], ordered[min(said, MOST_SAID) :]
 
