@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
     from pathloom.kernel.archive import Archive
     from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
+    from pathloom.kernel.constraint import Constraint
     from pathloom.kernel.counting import count
     from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
     from pathloom.kernel.evolution import Control, Evolution
@@ -55,7 +56,8 @@ if TYPE_CHECKING:
     from pathloom.planning import compose, freeze, iterate, plan
     from pathloom.result import Result
     from pathloom.study import Study, ablate, compare
-    from pathloom.study.tuning import Tuning, tune
+    from pathloom.study.tuning.experiment import tune
+    from pathloom.study.tuning.result import Tuning
 
 _HOME = {
     "claims": ("Bench", "Claim", "Finding"),
@@ -66,6 +68,7 @@ _HOME = {
     "kernel.archive": ("Archive",),
     "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
     "kernel.counting": ("count",),
+    "kernel.constraint": ("Constraint",),
     "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),
     "kernel.evolution": ("Control", "Evolution"),
     "kernel.front": ("Front", "FrontPlanner"),
@@ -97,7 +100,8 @@ _HOME = {
     "planning": ("compose", "freeze", "iterate", "plan"),
     "result": ("Result",),
     "study": ("Study", "ablate", "compare"),
-    "study.tuning": ("Tuning", "tune"),
+    "study.tuning.experiment": ("tune",),
+    "study.tuning.result": ("Tuning",),
 }  # fmt: skip
 _FROM = {name: module for module, names in _HOME.items() for name in names}
 
@@ -112,6 +116,7 @@ __all__ = [
     "ColonyState",
     "Component",
     "ConfigError",
+    "Constraint",
     "Control",
     "Count",
     "Crossover",

@@ -41,9 +41,10 @@ from pathloom.kernel.component import parameters
 from pathloom.kernel.constraint import Constraint
 from pathloom.kernel.counting import counting
 from pathloom.kernel.evaluation import measure
+from pathloom.kernel.evolution import check_requirements
 from pathloom.kernel.front import Front, FrontPlanner
 from pathloom.kernel.sampling import Mixed
-from pathloom.kernel.search import Search
+from pathloom.kernel.search import Search, check_representation
 from pathloom.kernel.state import Individual, generator
 from pathloom.paths.constraints import check_constraints
 from pathloom.paths.exchange import SharedNode
@@ -82,11 +83,12 @@ class MultiObjective(FrontPlanner):
         super().__post_init__()
         check_objectives(self.objectives)
         check_constraints(self.constraints)
+        check_requirements(self.sampling, self.crossover, self.mutation, self.repair)
         if self.constraints and not self.constrained:
             raise ConfigError(f"constraints: pymoo's {self.name} knows none; got {len(self.constraints)}")
 
     def start(self, problem: Problem, rng: np.random.Generator) -> FrontState:
-        Search.check_representation(self, problem)  # type: ignore[arg-type]
+        check_representation(self, self.objectives, problem)
         began = time.perf_counter()
         with counting() as counts:
             drawn = fitted(self.sampling, self.objectives).sample(problem, self.population, rng)
@@ -113,9 +115,7 @@ class MultiObjective(FrontPlanner):
             violations = np.concatenate((state.violation, violation.take(kept)))
             return self._reached(state, both, violations, born, violation, served, rng, counts, began)
 
-    def vary(
-        self, population: Population, fitness: Floats, state: FrontState, rng: np.random.Generator
-    ) -> Population:
+    def vary(self, population: Population, fitness: Floats, state: FrontState, rng: np.random.Generator) -> Population:
         """Return two children for each two rows of parents (2 k, width), pair after pair; ``fitness`` (2 k,)."""
         problem, progress = state.problem, self.progress(state)
         if self.crossover is not None:

@@ -1,6 +1,9 @@
 """``pathloom pareto``: its document, its tables, its config and what it refuses."""
 
 import json
+import signal
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -174,5 +177,51 @@ def test_help_names_every_option_of_the_interface(cli):
 
 def test_a_plot_is_drawn(cli):
     for suffix in ("png", "svg", "pdf"):
-        assert cli(*MAP, "--plot", f"front.{suffix}", "--quiet").code == 0
+        done = cli(*MAP, "--objectives", "length,turns", "--plot", f"front.{suffix}", "--quiet")
+        assert done.code == 0
         assert Path(f"front.{suffix}").stat().st_size > 5000
+
+
+def test_the_objective_that_colours_the_paths_can_be_chosen(cli):
+    asked = (*MAP, "--objectives", "length,turns", "--plot", "front.svg", "--quiet")
+    pictures = []
+    for colour in ("length", "turns"):
+        assert cli(*asked, "--colour", colour).code == 0
+        pictures.append(Path("front.svg").read_text())
+    assert pictures[0] != pictures[1]
+    refused = cli(*asked, "--colour", "turn")
+    assert refused.code == 2
+    assert "--colour: no objective of this front is 'turn'; did you mean 'turns'?" in refused.err
+
+
+ENDLESS = ("pareto", "--map", "random-20:75:s1", "--set", "termination.limit=1000000", "--set", "population=20")
+UNDER_WAY = """
+import sys
+from pathloom.cli import main
+from pathloom_pymoo.planner import MultiObjective
+
+step = MultiObjective.step
+
+def telling(planner, state):
+    if state.generation == 20:
+        print("under way", file=sys.stderr, flush=True)
+    return step(planner, state)
+
+MultiObjective.step = telling
+main()
+"""
+
+
+def test_ctrl_c_ends_a_run_with_the_front_so_far_and_writes_what_was_asked_for(folder):
+    command = [sys.executable, "-c", UNDER_WAY, *ENDLESS, "--out", "front.json", "--plot", "front.svg", "--json"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+        assert child.stderr is not None
+        assert child.stderr.readline() == "under way\n"
+        child.send_signal(signal.SIGINT)
+        out, err = child.communicate(timeout=60)
+    document = json.loads(out)
+    assert (child.returncode, document["status"], document["interrupted"]) == (130, "found", True)
+    assert 20 <= document["budget"]["generations"] < 1_000_000
+    assert err == "pathloom: interrupted; this is the front so far\n"
+    assert json.loads(Path("front.json").read_text()) == document
+    assert Path("front.svg").stat().st_size > 5000

@@ -91,9 +91,8 @@ def test_only_the_members_asked_for_are_on_the_map():
     assert len(axes_of(figure)["map"].get_lines()) == 2
 
 
-@pytest.mark.parametrize("dark", [False, True])
 @pytest.mark.parametrize("shape", [(8, 12), (1, 1), (40, 4), (6, 90), (120, 120)])
-@pytest.mark.parametrize("m", [2, 5])
+@pytest.mark.parametrize(("m", "dark"), [(2, True), (5, False)])
 def test_panels_do_not_overlap_and_nothing_leaves_the_figure(m, shape, dark):
     over = ground(shape)
     it = with_paths(look(m, knee=0, preferred=1, rivals=[("imga", np.full((1, m), 12.5))]), over)
@@ -125,7 +124,7 @@ def test_a_front_of_one_point_can_be_drawn(m):
 def test_the_same_front_gives_the_same_bytes(tmp_path):
     over = ground()
     for name in ("a.png", "b.png", "a.svg", "b.svg", "a.pdf", "b.pdf"):
-        save(front_figure(with_paths(look(3, knee=0), over), over), tmp_path / name)
+        save(front_figure(with_paths(look(2, knee=0), over), over), tmp_path / name)
     for suffix in ("png", "svg", "pdf"):
         assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"b.{suffix}").read_bytes()
 

@@ -1,5 +1,10 @@
 """Re-routing: valid, close to what it replaces, and the best way under its prices."""
 
+import heapq
+import itertools
+import math
+
+import naive
 import numpy as np
 import pytest
 from hypothesis import given
@@ -52,7 +57,7 @@ def test_with_length_as_the_only_price_nothing_gets_longer_and_all_become_shorte
     problem = pl.PathProblem(pl.load_map(name))
     parents, once = mutants(PLAIN, problem)
     assert (Length().measure(once, problem) <= Length().measure(parents, problem) + 1e-9).all()
-    _, often = mutants(PLAIN, problem, rounds=60)
+    _, often = mutants(PLAIN, problem, rounds=200)
     assert Length().measure(often, problem) == pytest.approx(octile_path(problem)[0])
 
 
@@ -102,3 +107,95 @@ def test_long_segments_are_replaced_by_single_steps_or_kept():
     mutated = PLAIN.apply(population, np.arange(20), problem, np.random.default_rng(0))
     for row in mutated:
         assert pl.validate(problem.representation.decode(row), problem) is None
+
+
+class Draws:
+    """The random numbers of a kernel."""
+
+    def __init__(self, words):
+        self.words = naive.xoshiro(words)
+
+    def uniform(self):
+        return (next(self.words) >> 11) / 2**53
+
+    def below(self, bound):
+        return (next(self.words) >> 32) * bound >> 32
+
+    def ratio(self, scale):
+        u = self.uniform()
+        return scale * u / (1.0 - u) if self.uniform() >= 0.25 else 0.0
+
+
+def rerouted(path, problem, mutation, draws):
+    """What `Reroute` makes of a path of single steps, by Dijkstra's search over cells and headings."""
+    it = problem.context
+    blocked, cols = it.occupied, it.cols
+    distance = it.distance.reshape(blocked.shape)
+    if len(path) < 3:
+        return path
+    most = min(mutation.longest, len(path) - 1)
+    span = min(most, int(2.0 * math.exp(draws.uniform() * math.log(0.5 * (most + 1)))))
+    first = draws.below(len(path) - span)
+    stretch = path[first : first + span + 1]
+    start, goal = stretch[0], stretch[-1]
+
+    def direction(a, b):
+        return next(d for d, cell in naive.legal_steps(blocked, a, problem.corners) if cell == b)
+
+    entry = direction(path[first - 1], start) if first > 0 else None
+    leave = direction(goal, path[first + span + 1]) if first + span + 1 < len(path) else None
+    about = int(math.exp(draws.uniform() * math.log(mutation.margin + 1.0))) - 1
+    box = [
+        (max(min(c[i] for c in stretch) - about, 0), min(max(c[i] for c in stretch) + about, blocked.shape[i] - 1))
+        for i in (0, 1)
+    ]
+    inside = list(itertools.product(*(range(low, high + 1) for low, high in box)))
+    amount = draws.uniform()
+    amount *= mutation.spread * amount
+    half = {cell: 0.5 + 0.5 * amount * draws.uniform() for cell in inside}
+    weight = draws.ratio(mutation.near)
+    near = 1.5 if draws.uniform() < 0.5 else min(distance[c] for c in stretch)
+    each, angle = draws.ratio(mutation.turn), 0.0
+    if draws.uniform() < 0.5:
+        each, angle = 0.0, 0.5 * each
+
+    def turn(a, b):
+        if a is None or b is None or a == b:
+            return 0.0
+        return each + angle * min(abs(a - b), 8 - abs(a - b))
+
+    heap, done, count = [(0.0, 0, start, entry, [start])], set(), itertools.count(1)
+    while heap:
+        cost, _, here, heading, way = heapq.heappop(heap)
+        if here is None:
+            return naive.without_loops([*path[:first], *way, *path[first + span + 1 :]])
+        if (here, heading) in done:
+            continue
+        done.add((here, heading))
+        if here == goal:
+            heapq.heappush(heap, (cost + turn(heading, leave), next(count), None, None, way))
+            continue
+        for d, there in naive.legal_steps(blocked, here, problem.corners):
+            if there in half:
+                step = math.hypot(there[0] - here[0], there[1] - here[1]) * (half[here] + half[there])
+                price = step + turn(heading, d) + (weight if distance[there] <= near else 0.0)
+                heapq.heappush(heap, (cost + price, next(count), there, d, [*way, there]))
+    return path
+
+
+@pytest.mark.parametrize("corners", ["strict", "no-squeeze", "allow"])
+@pytest.mark.parametrize("name", ["random-12:35:s3", "rooms-13:3", "maze-11:1", "random-15:60:s2"])
+def test_the_way_is_that_of_a_plain_search_under_the_same_prices(name, corners):
+    problem = pl.PathProblem(pl.load_map(name, corners=corners), corners=corners)
+    rng = np.random.default_rng(5)
+    population = PerturbedTrees().sample(problem, 60, rng)
+    mutation = Reroute(longest=30, margin=5)
+    words = np.random.default_rng(7)
+    mutated = mutation.apply(population, np.arange(60), problem, words)
+    draws = Draws(np.random.default_rng(7).bit_generator.random_raw(4).tolist())
+    cols = problem.context.cols
+    changed = 0
+    for before, after in zip(naive.unpacked(population, cols), naive.unpacked(mutated, cols), strict=True):
+        assert list(after) == list(rerouted(list(before), problem, mutation, draws))
+        changed += after != before
+    assert changed > 5 or name == "maze-11:1"  # where there is one way

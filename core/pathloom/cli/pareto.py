@@ -7,6 +7,7 @@ import click
 
 from pathloom.cli import DONE, INTERRUPTED, NO_PATH, asking
 from pathloom.errors import ConfigError
+from pathloom.naming import closest
 
 if TYPE_CHECKING:
     from pathloom.config import Config
@@ -34,6 +35,7 @@ PLOTS = (".png", ".svg", ".pdf")
 @click.option("--reference", metavar="VALUE,…", help="Reference point of the hypervolume.")
 @click.option("--freeze", is_flag=True, help="Print the complete config instead of planning.")
 @click.option("--plot", metavar="FILE", help="Draw the front and its paths on the map: png, svg, pdf.")
+@click.option("--colour", metavar="NAME", help="The objective by which --plot colours the paths; the first one.")
 @click.option("--dark", is_flag=True, help="Draw on a dark background.")
 @click.option("--out", metavar="FILE", help="Write the JSON document.")
 @click.option("--json", "as_json", is_flag=True, help="Print the JSON document instead of tables and picture.")
@@ -97,7 +99,7 @@ def _run(
     if options["out"] and result.status != "unreachable":
         write_file(options["out"], console.json_line(result.to_dict()).encode())
     if options["plot"] and result.found:
-        result.plot(options["plot"], dark=options["dark"])
+        result.plot(options["plot"], colour=options["colour"], dark=options["dark"])
     if not options["quiet"]:
         missing = options["plot"] if not result.found and result.status != "unreachable" else None
         for note in front_report.notes(result, missing):
@@ -126,6 +128,9 @@ def _asked(asked: "Asked", options: dict[str, Any]) -> "Asked":
 
 def _check_asked(asked: "Asked", planner: "FrontPlanner", options: dict[str, Any]) -> None:
     """Check what is asked of the front against its objectives, before any work is done."""
+    if options["colour"] is not None and options["colour"] not in (labels := planner.objectives.labels):
+        hint = closest(options["colour"], labels)
+        raise ConfigError(f"--colour: no objective of this front is {options['colour']!r}; {hint}")
     try:
         asked.check(planner.objectives)
         asked.rivals()

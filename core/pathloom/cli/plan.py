@@ -45,9 +45,10 @@ def command(ctx: click.Context, /, **options: Any) -> None:
     asking.check_files(options, plot=PLOTS, export=EXPORTS, out=None)
 
     from pathloom.cli import console
+    from pathloom.config import lasting
 
     with console.compiling(quiet=quiet):
-        planner = asking.changed(_planner(config, options), options["settings"])
+        planner = lasting(asking.changed(_planner(config, options), options["settings"]), config.time_limit)
         problem = asking.problem_of(config, options, facts)
         table = asking.table_of(config, planner, problem)
         if options["freeze"]:
@@ -96,11 +97,10 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
 
 
 def _planner(config: "Config", options: dict[str, Any]) -> Any:
-    from pathloom.config import lasting
     from pathloom.kernel.compose import compose
 
     try:
-        return lasting(compose(config.planner), config.time_limit)
+        return compose(config.planner)
     except ConfigError as error:
         by_option = options["planner"] is not None
         raise ConfigError(f"--{error}" if by_option else f"{options['config']}: {error}") from error

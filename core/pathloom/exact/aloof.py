@@ -16,9 +16,8 @@ from pathloom.kernel.evaluation import Floats, Terms
 from pathloom.kernel.operators import Sampling
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
-from pathloom.paths.additive import prices_of
+from pathloom.paths.additive import STEP_LENGTHS, Prices, prices_of
 from pathloom.paths.context import STEPS
-from pathloom.paths.objectives import Length
 from pathloom.paths.pathwise import path_problem
 from pathloom.paths.priced_trees import USUAL
 from pathloom.paths.problem import PathProblem
@@ -79,7 +78,7 @@ class Aloof(Sampling):
         if len(prices) == len(priced):
             return np.empty((0, 1), np.int32)
         if not prices:
-            prices, own = [Length().prices(problem)], np.ones(1)
+            prices, own = [Prices(step=STEP_LENGTHS)], np.ones(1)
         search = Optima(problem, prices, rng)
         for distance, weights in islice(
             self._tries(problem, own, search, rng), min(self.vectors, self.work // problem.context.blocked.size)

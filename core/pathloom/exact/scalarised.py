@@ -6,7 +6,6 @@ from itertools import combinations, islice
 from typing import ClassVar
 
 import numpy as np
-
 from numpy.typing import NDArray
 
 from pathloom import compiled
@@ -118,7 +117,9 @@ class Optima:
         step, cell, turn, zone = weighted(self.prices, weights).tables
         ties = TIE * (step.max() + cell.max(initial=0.0) + turn.max()) * self._ties
         cell = cell + ties if cell.size else ties
-        walk = compiled.headings.cheapest(it.moves if moves is None else moves, it.cols, it.start, it.goal, step, cell, turn, zone)
+        walk = compiled.headings.cheapest(
+            it.moves if moves is None else moves, it.cols, it.start, it.goal, step, cell, turn, zone
+        )
         path = compiled.reshaping.without_loops(walk[np.newaxis], it.blocked.size)
         self._values.append(np.array([one.along(path, self.problem)[0] for one in self.prices]))
         if path.tobytes() not in self._seen:
@@ -127,7 +128,7 @@ class Optima:
 
 
 def weightings(own: Floats, most: int, search: Optima, rng: np.random.Generator) -> Iterator[Floats]:
-    """Yield one weighting (m,) after the other, without end: see `Scalarised`; ``most`` sets how fine the lattice is."""
+    """Yield weightings (m,) without end, in the order of `Scalarised`; ``most`` sets how fine the lattice is."""
     m = len(own)
     yield own
     if m == 1:

@@ -1,5 +1,6 @@
 """Where the path of another planner lies beside a front."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -8,8 +9,10 @@ from numpy.typing import NDArray
 
 from pathloom.fronts.indicators import SAME, additive_epsilon
 from pathloom.fronts.verified import measured
-from pathloom.kernel.evaluation import Floats, Terms
+from pathloom.kernel.evaluation import Floats, Terms, measure
 from pathloom.paths.cell_paths import Path
+from pathloom.paths.collision import Exact
+from pathloom.paths.deletion import delete_points
 from pathloom.paths.problem import PathProblem
 from pathloom.result import Result, Status
 
@@ -24,7 +27,8 @@ class Placement:
     which: Which
     """As the search found it, or after the planner's refinement."""
     cells: bool
-    """Whether each step goes to one of the 8 neighbours; an any-angle path may beat every one that does."""
+    """Whether each step goes to one of the 8 neighbours. If not, it met the front's members after the same
+    deletion of points too."""
     values: tuple[float, ...]
     verdict: Verdict
     """``dominated`` by a member; equal to one (``on the front``); better than one
@@ -55,11 +59,15 @@ class Rival:
         return next((p.verdict for p in self.placements if p.which == which), None)
 
 
-def place(result: Result, problem: PathProblem, objectives: Terms, front: Floats) -> Rival:
+def place(
+    result: Result, problem: PathProblem, objectives: Terms, front: Floats, straightened: Floats | None = None
+) -> Rival:
     """Place the paths of a result beside a front (n, m), n ≥ 1.
 
     Both the path before refinement and the answer are measured by the front's
-    objectives, whatever the planner itself weighed.
+    objectives, whatever the planner itself weighed. To be fair, a path with longer
+    segments than single steps meets the members after `straightened` too, values
+    (n, m) in the same order; a member stands for both its values.
     """
     found: list[tuple[Which, Path]] = []
     if result.path is not None:
@@ -67,15 +75,30 @@ def place(result: Result, problem: PathProblem, objectives: Terms, front: Floats
             found.append(("unrefined", result.unrefined))
         found.append(("refined", result.path))
     values = measured([path for _, path in found], problem, objectives)
-    placements = tuple(_placed(which, path, row, front) for (which, path), row in zip(found, values, strict=True))
+    both = front if straightened is None else np.concatenate((front, straightened))
+    placements = tuple(
+        _placed(which, path, row, front if _of_cells(path) else both, len(front))
+        for (which, path), row in zip(found, values, strict=True)
+    )
     return Rival(result.planner, result.seed, result.status, placements)
 
 
-def _placed(which: Which, path: Path, values: Floats, front: Floats) -> Placement:
+def shortcut(paths: Sequence[Path], problem: PathProblem, objectives: Terms) -> Floats:
+    """Return the values (n, m) of paths after the deletion of points whose neighbours see each other."""
+    population = delete_points(problem.representation.encode(list(paths)), problem, Exact(), 0, True)
+    return measure(list(objectives.objectives()), population, problem) + 0.0  # no -0.0
+
+
+def _of_cells(path: Path) -> bool:
+    return len(path) < 2 or bool((np.abs(np.diff(path, axis=0)).max(axis=1) <= 1).all())
+
+
+def _placed(which: Which, path: Path, values: Floats, front: Floats, members: int) -> Placement:
+    """Place one path; the row of a member is its place in the front modulo ``members``."""
     above, below = dominating(front, values), dominated(front, values)
     same = (np.abs(front - values) <= SAME).all(axis=1)
     verdict: Verdict = (
-        "on the front" if same.any() else "dominated" if len(above) else "beats the front" if len(below)
+        "dominated" if len(above) else "on the front" if same.any() else "beats the front" if len(below)
         else "beside the front"
     )  # fmt: skip
     excess: tuple[float, ...] = ()
@@ -85,11 +108,11 @@ def _placed(which: Which, path: Path, values: Floats, front: Floats) -> Placemen
         excess = tuple((values - front[most]).tolist())
     return Placement(
         which,
-        bool((np.abs(np.diff(path, axis=0)).max(axis=1) <= 1).all()) if len(path) > 1 else True,
+        _of_cells(path),
         tuple(values.tolist()),
         verdict,
-        tuple(above.tolist()),
-        tuple(below.tolist()),
+        tuple(np.unique(above % members).tolist()),
+        tuple(np.unique(below % members).tolist()),
         additive_epsilon(front, values[np.newaxis]) if np.isfinite(values).all() else None,
         excess,
     )

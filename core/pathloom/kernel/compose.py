@@ -204,7 +204,7 @@ def _terms(value: Any, registry: Registry, where: str) -> Terms:
     if isinstance(value, Terms):
         return value
     if isinstance(value, Sequence) and not isinstance(value, str):
-        value = {str(getattr(v, "name", v)): v for v in value}
+        value = _labelled(value, where)
     if not isinstance(value, Mapping):
         raise ConfigError(f"{where}: objectives are a table of terms; got {value!r}")
     terms = []
@@ -223,6 +223,19 @@ def _terms(value: Any, registry: Registry, where: str) -> Terms:
             raise ConfigError(f"{here}: weight is a number in [0, inf); got {weight!r}")
         terms.append(Term(label, objective, float(weight)))
     return Terms.__checked__(Terms(terms), where)
+
+
+def _labelled(values: Sequence[Any], where: str) -> dict[str, Any]:
+    """Return the table that a list of objectives stands for: each by its name."""
+    table: dict[str, Any] = {}
+    for value in values:
+        label = str(value.get("use") if isinstance(value, Mapping) else getattr(value, "name", value))
+        if label in table:
+            raise ConfigError(
+                f"{where}: found {label!r} twice, allowed each objective once; in a table they have labels"
+            )
+        table[label] = value
+    return table
 
 
 def _parameter(component: type[Component], name: str, where: str, registry: Registry) -> Parameter:

@@ -155,13 +155,17 @@ def measure(objectives: Sequence[Objective], population: Population, problem: Pr
     for column, objective in enumerate(objectives):
         found = np.asarray(objective.measure(population, problem))
         if found.shape != (len(population),):
-            raise PluginError(
-                f"objective {objective.name!r}: wanted shape ({len(population)},), one value a row; got {found.shape}"
-            )
+            asked = f"wanted shape ({len(population)},), one value a row; got {found.shape}"
+            first = f" for {_shown(population[0], problem)}" if len(population) == 1 else ""
+            raise PluginError(f"objective {objective.name!r}: {asked}{first}")
         values[:, column] = found
     flat = values.ravel()
     if math.isnan(flat @ flat):  # NaN where one of the values is
         row, column = (int(i) for i in np.argwhere(np.isnan(values))[0])
-        decoded = problem.representation.decode(population[row])
-        raise PluginError(f"objective {objectives[column].name!r}: returned NaN for {decoded!r}".replace("\n", " "))
+        raise PluginError(f"objective {objectives[column].name!r}: returned NaN for {_shown(population[row], problem)}")
     return values
+
+
+def _shown(row: NDArray[Any], problem: Problem) -> str:
+    """Return an individual in one line."""
+    return " ".join(repr(problem.representation.decode(row)).split())

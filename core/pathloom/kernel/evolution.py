@@ -96,7 +96,7 @@ class Evolution(Search):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._check_requirements()
+        check_requirements(self.sampling, self.crossover, self.mutation, self.repair)
 
     def start(self, problem: Problem, rng: np.random.Generator) -> State:
         self.check_representation(problem)
@@ -183,14 +183,21 @@ class Evolution(Search):
         was = before.population[self._distinct(before, problem)]
         return distinct[problem.representation.newcomers(deme.population[distinct], was)]
 
-    def _check_requirements(self) -> None:
-        """Refuse operators that need what those before them in the loop do not keep."""
-        in_the_loop = [c for c in (self.crossover, self.mutation, self.repair) if c is not None]
-        kept = self.sampling.gives - frozenset().union(*(c.breaks for c in in_the_loop))
-        for component in in_the_loop:
-            if missing := component.needs - kept:
-                lost = [c.name for c in in_the_loop if c.breaks & missing] or [self.sampling.name]
-                raise ConfigError(
-                    f"{component.kind} {component.name!r} needs {', '.join(sorted(missing))} individuals, "
-                    f"which {', '.join(map(repr, lost))} does not leave"
-                )
+
+def check_requirements(sampling: Sampling, *operators: Crossover | Mutation | Repair | None) -> None:
+    """Refuse operators that need what the sampling and the operators of the loop do not keep.
+
+    Raises
+    ------
+    ConfigError
+        Which one needs what, and which one does not leave it.
+    """
+    in_the_loop = [one for one in operators if one is not None]
+    kept = sampling.gives - frozenset().union(*(one.breaks for one in in_the_loop))
+    for component in in_the_loop:
+        if missing := component.needs - kept:
+            lost = [one.name for one in in_the_loop if one.breaks & missing] or [sampling.name]
+            raise ConfigError(
+                f"{component.kind} {component.name!r} needs {', '.join(sorted(missing))} individuals, "
+                f"which {', '.join(map(repr, lost))} does not leave"
+            )

@@ -138,16 +138,21 @@ class Search(Planner, ABC):
         }
 
     def check_representation(self, problem: Problem) -> None:
-        """Refuse parts that work on another representation than the problem's.
+        """Refuse parts that work on another representation than the problem's: see `check_representation`."""
+        check_representation(self, self.objectives, problem)
 
-        Raises
-        ------
-        ConfigError
-            Which part it is, and what the problem has.
-        """
-        given = problem.representation.name
-        parts: list[Component] = [part for _, part in members(self)] + list(self.objectives.objectives())
-        for part in parts:
-            parts += [inner for _, inner in members(part)]
-            if part.works_on and part.works_on != given:
-                raise ConfigError(f"{part.kind} {part.name!r} works on {part.works_on!r}; the problem has {given!r}")
+
+def check_representation(planner: Planner, objectives: Terms, problem: Problem) -> None:
+    """Refuse parts of a planner that work on another representation than the problem's.
+
+    Raises
+    ------
+    ConfigError
+        Which part it is, and what the problem has.
+    """
+    given = problem.representation.name
+    parts: list[Component] = [part for _, part in members(planner)] + list(objectives.objectives())
+    for part in parts:
+        parts += [inner for _, inner in members(part)]
+        if part.works_on and part.works_on != given:
+            raise ConfigError(f"{part.kind} {part.name!r} works on {part.works_on!r}; the problem has {given!r}")

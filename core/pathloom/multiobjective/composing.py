@@ -17,7 +17,7 @@ from pathloom.paths.constraints import parse_constraint
 FEWEST, MOST = 2, 5
 """How many objectives a front may have."""
 
-Objectives = Sequence[str | Mapping[str, Any] | Objective] | Mapping[str, Any]
+Objectives = Sequence[str | Mapping[str, Any] | Objective] | Mapping[str, Any] | Terms
 
 
 def front_planner(

@@ -14,6 +14,7 @@ from pathloom.config import frozen
 from pathloom.errors import ConfigError
 from pathloom.fronts import Asked, Choice, ParetoResult, Rival, Verified, indicators, knee, place, preferred, verified
 from pathloom.fronts import pseudo_weights as pseudo_weights_of
+from pathloom.fronts.against import shortcut
 from pathloom.kernel.constraint import Constraint
 from pathloom.kernel.evaluation import Floats, Terms
 from pathloom.kernel.front import Front, FrontPlanner
@@ -138,8 +139,9 @@ def pareto(
     if rivals:
         placed: list[Rival] = []
         with interruptible(facts), _timed(spent, "against"):
+            straight = shortcut(found.paths, problem, composed.objectives)
             for result in _runs(problem, rivals, seed, runs, time_limit, name):
-                placed.append(place(result, problem, composed.objectives, found.values))  # noqa: PERF401 - kept if interrupted
+                placed.append(place(result, problem, composed.objectives, found.values, straight))  # noqa: PERF401 - kept if interrupted
         facts["against"] = tuple(placed)
     facts["budget"]["references"] = spent
     status: Status = "found"

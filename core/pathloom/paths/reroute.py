@@ -31,10 +31,10 @@ class Reroute(Mutation):
     works_on: ClassVar[str] = "cells"
 
     rate: Share = 0.5
-    longest: Annotated[int, msgspec.Meta(ge=2, le=2**31 - 1)] = 60
+    longest: Annotated[int, msgspec.Meta(ge=2, le=2**31 - 1)] = 100
     """Most steps of the stretch."""
     margin: Whole = 12
-    """How far from the stretch's bounding box the new way may lead, in cells, at most."""
+    """How far from the stretch's bounding box the new way may lead, in cells, at most; mostly it is less."""
     spread: NonNegative = 1.0
     """A cell stretches the length of a step by at most this share."""
     near: NonNegative = 1.0
