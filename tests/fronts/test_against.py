@@ -8,7 +8,8 @@ from naive import examples
 
 from pathloom import OccupancyGrid, PathProblem, Terms
 from pathloom.fronts import place
-from pathloom.fronts.against import dominated, dominating
+from pathloom.fronts.against import dominated, dominating, shortcut
+from pathloom.fronts.verified import measured
 from pathloom.paths.objectives import Length, Turns
 from pathloom.result import Result
 
@@ -80,3 +81,15 @@ def test_dominance_is_as_defined(rows, point):
     front = np.array(rows, float)
     assert dominating(front, np.array(point, float)).tolist() == [i for i, a in enumerate(rows) if better(a, point)]
     assert dominated(front, np.array(point, float)).tolist() == [i for i, a in enumerate(rows) if better(point, a)]
+
+
+def test_an_any_angle_path_meets_the_members_without_their_superfluous_points():
+    problem = PathProblem(OccupancyGrid(np.zeros((5, 5), bool)), start=(4, 0), goal=(0, 2))
+    stairs = np.array([(4, 0), (3, 0), (2, 0), (1, 1), (0, 2)])
+    front = measured([stairs], problem, TERMS)
+    straight = shortcut([stairs], problem, TERMS)
+    assert straight[0, 0] == pytest.approx(np.hypot(4, 2))
+    line, cells = result(np.array([(4, 0), (0, 2)])), result(stairs)
+    alone, fair = (place(line, problem, TERMS, front, it).verdict("refined") for it in (None, straight))
+    assert (alone, fair) == ("beats the front", "on the front")
+    assert place(cells, problem, TERMS, front, straight).verdict("refined") == "on the front"

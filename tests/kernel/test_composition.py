@@ -106,6 +106,17 @@ def test_what_is_wrong_is_said_where_it_is_with_what_is_allowed_and_meant(regist
         compose("imga", registry=registry, **changes)
 
 
+@pytest.mark.parametrize("objectives", [["length", "turns", "length"], ["length", {"use": "length"}]])
+def test_an_objective_that_is_listed_twice_is_refused(objectives):
+    with pytest.raises(pl.ConfigError, match=r"^planner.objectives: found 'length' twice, allowed each objective once"):
+        compose({"use": "nsga2", "objectives": objectives})
+
+
+def test_an_objective_may_be_listed_by_a_table(registry):
+    made = compose({"use": "nsga2", "objectives": ["turns", {"use": "length"}]})
+    assert made.terms.labels == ("turns", "length")
+
+
 def test_a_planner_says_which_slots_it_needs(registry):
     with pytest.raises(
         pl.ConfigError, match="planner: 'evolution' needs 'objectives': a table of objectives with weights"

@@ -135,6 +135,14 @@ def test_an_objective_of_the_wrong_shape_is_named(registry):
         compose(planner, registry=registry, objectives=pl.Terms([bad])).start(problem, np.random.default_rng(0))
 
 
+def test_where_one_individual_alone_was_measured_it_is_named_too(registry):
+    problem, planner = load(ONE_MAX, registry)
+    bad = pl.Term("bad", _objective(lambda population: np.zeros((len(population), 2))))
+    alone = compose(planner, registry=registry, objectives=pl.Terms([bad]), population=1)
+    with pytest.raises(pl.PluginError, match=r"wanted shape \(1,\), one value a row; got \(1, 2\) for '[01]{40}'"):
+        alone.start(problem, np.random.default_rng(0))
+
+
 def test_an_objective_that_returns_nan_is_named_with_the_individual(registry):
     problem, planner = load(ONE_MAX, registry)
     bad = pl.Term("bad", _objective(lambda population: np.full(len(population), np.nan)))

@@ -129,7 +129,7 @@ class Draws:
 def rerouted(path, problem, mutation, draws):
     """What `Reroute` makes of a path of single steps, by Dijkstra's search over cells and headings."""
     it = problem.context
-    blocked, cols = it.occupied, it.cols
+    blocked = it.occupied
     distance = it.distance.reshape(blocked.shape)
     if len(path) < 3:
         return path

@@ -533,3 +533,23 @@ def test_the_widest_way_is_found_though_clearance_is_not_additive():
     state = last(short("nsga2", 60, population=60, objectives=["length", "clearance", "turn-angle"]), WIDE)
     clearest = state.archive.population[[state.archive.values[:, 1].argmin()]]
     assert WIDE.context.distance[clearest[clearest >= 0]].min() == widest
+
+
+def test_operators_that_need_what_others_do_not_leave_are_refused_when_composed():
+    with pytest.raises(pl.ConfigError, match="needs 8-connected individuals, which 'point-deletion' does not leave"):
+        compose("nsga2", mutation="baselines/single-gene", repair="point-deletion")
+
+
+def test_parents_come_from_all_trade_offs_if_wanted():
+    problem = pl.PathProblem(pl.load_map("blocks-20:20%:s2"))
+    planner = compose("nsga2", population=4, from_archive=1.0)
+    state = planner.start(problem, first_generator(0))
+    for _ in range(40):
+        state = planner.step(state)
+    assert len(state.archive) > 4
+    archive = {row[row >= 0].tobytes() for row in state.archive.population}
+    parents, fitness = planner._couples(state, 200, np.random.default_rng(0))
+    assert {row[row >= 0].tobytes() for row in parents} == archive
+    assert fitness.shape == (400,)
+    own, _ = compose(planner, from_archive=0.0)._couples(state, 200, np.random.default_rng(0))
+    assert {row[row >= 0].tobytes() for row in own} <= {row[row >= 0].tobytes() for row in state.population}

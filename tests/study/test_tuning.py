@@ -13,9 +13,9 @@ from pathloom.study import Row
 from pathloom.study.budget import Budget
 from pathloom.study.instances import instances_of
 from pathloom.study.statistics import Runs
+from pathloom.study.tuning.experiment import OPTIMUM, tune, tuned
 from pathloom.study.tuning.factors import experiment
 from pathloom.study.tuning.response import response
-from pathloom.study.tuning.experiment import OPTIMUM, tune, tuned
 
 FACTORS = {"population": [40, 60, 80], "crossover.rate": [0.6, 0.8, 0.95], "mutation.rate": [0.1, 0.3]}
 

@@ -324,11 +324,13 @@ def _write_heading(figure: "Figure", heads: Sequence[str], lines: int, colours: 
 
 def _settle(figure: "Figure", places: "Sequence[tuple[Scene, Axes, Ground]]") -> None:
     """Lay the figure out, and draw start and goal, whose discs have a size on paper."""
-    figure.draw_without_rendering()
+    engine = figure.get_layout_engine()
+    assert engine is not None
+    engine.execute(figure)
     for scene, axes, ground in places:
+        axes.apply_aspect()
         cell = axes.get_window_extent().height / figure.dpi * 72 / len(scene.walls)
         scene.draw_ends(axes, (ground.start, ground.goal), cell)
-    figure.draw_without_rendering()
     figure.set_layout_engine("none")  # what is drawn later changes nothing
 
 

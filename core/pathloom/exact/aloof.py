@@ -30,8 +30,9 @@ class Aloof(Sampling):
 
     No weighted sum of additive objectives leads to the wide end of a front over
     clearance. Distances are spread evenly from the least one that excludes a cell to
-    the greatest at which there is a way; at each of them, in turn, the additive
-    objectives are weighted as `Scalarised` does, length where there is none.
+    the greatest at which there is a way, and none at all is one more; at each of them,
+    in turn, the additive objectives are weighted as `Scalarised` does, length where
+    there is none.
 
     Only where an objective is not additive: else `Scalarised` finds the corners of the
     front, and ``rest`` makes all individuals here.
@@ -92,9 +93,7 @@ class Aloof(Sampling):
         self, problem: PathProblem, own: Floats, search: Optima, rng: np.random.Generator
     ) -> Iterator[tuple[float, Floats]]:
         """Yield distances with weightings: all distances under the first weighting, all under the second, and so on."""
-        levels = distances(problem, self.distances)[::-1]
-        if len(levels) == 0:
-            return
+        levels = [*distances(problem, self.distances)[::-1], 0.0]
         for weights in weightings(own, max(self.vectors // len(levels), 2), search, rng):
             for level in levels:
                 yield level, weights

@@ -16,9 +16,9 @@ OBJECTIVES = "length,unsafe-cells,turns"
 
 
 def main() -> None:
-    """Print one of the tables."""
+    """Print one of the tables; without a word, that of dominance."""
     parser = argparse.ArgumentParser(prog="python -m pathloom.multiobjective", description=__doc__)
-    tables = parser.add_subparsers(dest="table", metavar="TABLE", required=True)
+    tables = parser.add_subparsers(dest="table", metavar="TABLE")
     one = tables.add_parser("dominance", help="how often the papers' weighted-sum planners land behind the front")
     one.add_argument("--maps", default=",".join(MAPS), help="with commas between (default: %(default)s)")
     one.add_argument("--planners", default=",".join(PAPERS), help="(default: %(default)s)")
@@ -33,7 +33,7 @@ def main() -> None:
     for table, runs in ((one, 10), (two, 10), (three, 5)):
         table.add_argument("--algorithm", default=DEFAULT_PLANNER, help="finds the front (default: %(default)s)")
         table.add_argument("--runs", type=int, default=runs, help="seeds (default: %(default)s)")
-    asked = parser.parse_args()
+    asked = parser.parse_args(sys.argv[1:] or ["dominance"])
     {"dominance": _dominance, "quality": _quality, "sweep": _sweep}[asked.table](asked)
 
 
