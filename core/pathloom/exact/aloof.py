@@ -47,10 +47,10 @@ class Aloof(Sampling):
     objectives: Terms = USUAL
     """What is weighted. Left as it is, it stands for the objectives of the planner."""
     distances: Count = 24
-    """How many distances there are."""
+    """How many distances there are at most; so few that there are two searches for each."""
     vectors: Count = 66
     """How many searches are made at most, over all distances."""
-    work: Count = 12_000_000
+    work: Count = 6_000_000
     """Limit of searches times cells of the map: on large maps fewer are made, or none."""
     rest: Sampling = PerturbedTrees()
     """Makes the individuals that are still missing."""
@@ -81,20 +81,19 @@ class Aloof(Sampling):
         if not prices:
             prices, own = [Prices(step=STEP_LENGTHS)], np.ones(1)
         search = Optima(problem, prices, rng)
-        for distance, weights in islice(
-            self._tries(problem, own, search, rng), min(self.vectors, self.work // problem.context.blocked.size)
-        ):
+        most = min(self.vectors, self.work // problem.context.blocked.size)
+        for distance, weights in islice(self._tries(problem, own, search, most, rng), most):
             search.run(weights, moves_at(problem, distance))
             if len(search.paths) >= n:
                 break
         return search.population
 
     def _tries(
-        self, problem: PathProblem, own: Floats, search: Optima, rng: np.random.Generator
+        self, problem: PathProblem, own: Floats, search: Optima, most: int, rng: np.random.Generator
     ) -> Iterator[tuple[float, Floats]]:
         """Yield distances with weightings: all distances under the first weighting, all under the second, and so on."""
-        levels = [*distances(problem, self.distances)[::-1], 0.0]
-        for weights in weightings(own, max(self.vectors // len(levels), 2), search, rng):
+        levels = [*distances(problem, min(self.distances, max(most // 2 - 1, 1)))[::-1], 0.0]
+        for weights in weightings(own, max(most // len(levels), 2), search, rng):
             for level in levels:
                 yield level, weights
 

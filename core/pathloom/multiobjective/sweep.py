@@ -4,7 +4,8 @@ The sweep is the best that exact search offers for length, clearance and turn
 angle, of which clearance is not additive: 66 searches, each for the cheapest
 path under one weighting of length and turn angle among the cells that are at
 least so far from obstacles. It is made twice, with 11 distances times 6 weightings
-and with 6 times 11, and the better one counts. The planner then has as much
+and with 6 times 11 (and more weightings, where there are fewer distances), and the
+better one counts. The planner then has as much
 processor time as that sweep took. Reference point: a tenth of the range of both
 fronts together beyond their common nadir.
 """
@@ -46,7 +47,9 @@ class Sweep:
     length: float
     """Of the shortest path that the sweep found, in cells."""
     seconds: float
-    """Processor time of the sweep, and of each run of the planner."""
+    """Processor time of the sweep, after which a run of the planner ends."""
+    longest: float
+    """Processor time of the longest run, whose first population or last generation may take it beyond."""
     points: int
     """Of the sweep's front."""
     ratios: tuple[float, ...]
@@ -70,11 +73,15 @@ def sweeps(paths: Sequence[str], planner: Any = DEFAULT_PLANNER, *, seed: int = 
             done.append((swept(problem, shape), time.process_time() - began, shape))
         corner = reference_point(np.concatenate([front for front, *_ in done]))
         front, seconds, shape = max(done, key=lambda one: hypervolume(one[0], corner))
-        fronts = [timed(problem, used, seed + number, seconds)[0] for number in range(runs)]
+        fronts, spent = [], []
+        for number in range(runs):
+            began = time.process_time()
+            fronts.append(timed(problem, used, seed + number, seconds)[0])
+            spent.append(time.process_time() - began)
         corner = reference_point(non_dominated(np.concatenate((front, *fronts))))
         volume = hypervolume(front, corner)
         yield Sweep(
-            Path(path).stem, shape, float(front[:, 0].min()), seconds, len(front),
+            Path(path).stem, shape, float(front[:, 0].min()), seconds, max(spent), len(front),
             tuple(hypervolume(one, corner) / volume for one in fronts), tuple(map(len, fronts)),
         )  # fmt: skip
 
@@ -87,8 +94,9 @@ def swept(problem: PathProblem, shape: tuple[int, int], most: int | None = None)
     search = Optima(problem, prices, np.random.default_rng(0))
     for weights in ((1.0, ASIDE), (ASIDE, 1.0)):  # the ranges by which weights are scaled
         search.run(np.array(weights))
-    shares = np.linspace(0.0, 1.0, weightings)
-    tries = [(level, share) for level in (0.0, *distances(problem, levels - 1)) for share in shares]
+    found = (0.0, *distances(problem, levels - 1))
+    shares = np.linspace(0.0, 1.0, levels * weightings // len(found))
+    tries = [(level, share) for level in found for share in shares]
     scale = search.scale
     for level, share in tries[:most]:
         search.run(np.maximum((share, 1.0 - share), ASIDE) / scale, moves_at(problem, level))
@@ -124,11 +132,11 @@ def far_apart(path: str) -> PathProblem:
 def markdown(rows: Sequence[Sweep]) -> str:
     """Return a table: one line for each map."""
     heads = (
-        "map", "shortest", "sweep", "s CPU", "its points", "points of the planner", "hypervolume over the sweep's",
-        "least",
+        "map", "shortest", "sweep", "s CPU", "s CPU of the planner", "its points", "points of the planner",
+        "hypervolume over the sweep's", "least",
     )  # fmt: skip
     lines = [
-        (s.map, f"{s.length:.0f}", f"{s.shape[0]} × {s.shape[1]}", f"{s.seconds:.1f}", s.points,
+        (s.map, f"{s.length:.0f}", f"{s.shape[0]} × {s.shape[1]}", f"{s.seconds:.1f}", f"{s.longest:.1f}", s.points,
          f"{np.median(s.sizes):.0f}", f"{np.mean(s.ratios):.4f}", f"{min(s.ratios):.4f}")
         for s in rows
     ]  # fmt: skip
