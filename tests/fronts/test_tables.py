@@ -65,3 +65,15 @@ def test_a_table_is_printed(room, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["multiobjective", "sweep", "--runs", "1", str(room / "room.map.scen")])
     main()
     assert capsys.readouterr().out.count("\n| room.map |") == 1
+
+
+def test_a_map_that_nobody_has_is_told_in_one_line(monkeypatch, capsys):
+    from pathloom.multiobjective import __main__ as command
+
+    monkeypatch.setattr("sys.argv", ["tables", "sweep", "no-such.map"])
+    with pytest.raises(SystemExit) as ended:
+        command.main()
+    told = capsys.readouterr().err
+    assert ended.value.code == 2
+    assert "no-such.map" in told
+    assert told.count("\n") == 1

@@ -3,6 +3,7 @@
 import argparse
 import sys
 
+from pathloom.errors import PathloomError
 from pathloom.multiobjective.dominance import MAPS, PAPERS, dominance
 from pathloom.multiobjective.dominance import markdown as table_of_dominance
 from pathloom.multiobjective.quality import MAPS as TIMED
@@ -34,7 +35,10 @@ def main() -> None:
         table.add_argument("--algorithm", default=DEFAULT_PLANNER, help="finds the front (default: %(default)s)")
         table.add_argument("--runs", type=int, default=runs, help="seeds (default: %(default)s)")
     asked = parser.parse_args(sys.argv[1:] or ["dominance"])
-    {"dominance": _dominance, "quality": _quality, "sweep": _sweep}[asked.table](asked)
+    try:
+        {"dominance": _dominance, "quality": _quality, "sweep": _sweep}[asked.table](asked)
+    except PathloomError as error:
+        parser.exit(2, f"{parser.prog}: {error}\n")
 
 
 def _dominance(asked: argparse.Namespace) -> None:
