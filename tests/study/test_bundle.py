@@ -17,7 +17,7 @@ import pytest
 import pathloom as pl
 from pathloom.study import Study
 from pathloom.study.bundle import bundle, verify
-from pathloom.study.bundle.opening import unzipped
+from pathloom.study.bundle.opening import opened, unzipped
 from pathloom.study.errors import StudyError
 from pathloom.study.papers import names, read
 from pathloom.study.session import Workers
@@ -239,6 +239,33 @@ def test_a_bomb_in_a_map_is_not_unpacked(packed, tmp_path):
 def test_what_is_no_zip_file_is_refused(tmp_path, data):
     (tmp_path / "x.zip").write_bytes(data)
     assert "zip" in refusal(tmp_path / "x.zip")
+
+
+@pytest.mark.parametrize("method", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_compression_that_no_bundle_has_is_refused(packed, tmp_path, method):
+    content = members(packed)
+    with zipfile.ZipFile(tmp_path / "x.zip", "w", method) as archive:
+        for name, data in content.items():
+            archive.writestr(name, data)
+    assert f"compression {method}" in refusal(tmp_path / "x.zip")
+
+
+def test_an_archive_for_a_newer_zip_than_there_is_is_refused(packed, tmp_path):
+    data = bytearray(packed.read_bytes())
+    for at in range(len(data) - 4):
+        if data[at : at + 4] == b"PK\x01\x02":
+            data[at + 6] = 250  # the version that is needed to extract it
+    (tmp_path / "x.zip").write_bytes(data)
+    assert "no whole zip file" in refusal(tmp_path / "x.zip")
+
+
+def test_a_fault_of_ours_while_a_bundle_is_open_is_no_fault_of_the_bundle(packed):
+    def reads():
+        with opened(packed):
+            raise RuntimeError("a defect")
+
+    with pytest.raises(RuntimeError, match="a defect"):
+        reads()
 
 
 def test_no_file_is_said_so(tmp_path):

@@ -50,20 +50,32 @@ def opened(path: FilePath) -> Iterator[tuple[Path, dict[str, Any]]]:
     StudyError
         If it is no bundle, too large, damaged, or holds what no bundle holds.
     """
+    with tempfile.TemporaryDirectory() as folder:
+        store = Path(folder) / STORE
+        design = _unpacked(path, store)
+        yield store, design
+
+
+def _unpacked(path: FilePath, store: Path) -> dict[str, Any]:
+    """Check a bundle, write the study's file to where it is told, and return what ``study.json`` says."""
     try:
-        with zipfile.ZipFile(path) as archive, tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
             _check_members(path, archive)
-            store = Path(folder) / STORE
             _check_sums(path, archive, store)
             design = _design(path, archive)
-            _check_store(path, store)
-            yield store, design
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        EOFError,
+        NotImplementedError,  # what zipfile raises for an archive that asks for more than it can read
+    ) as error:
         raise StudyError(f"{path}: found no whole zip file ({one_line(str(error))}), allowed a bundle") from error
     except FileNotFoundError as error:
         raise StudyError(f"{path}: found no such file, allowed a bundle") from error
     except OSError as error:
         raise StudyError(f"{path}: found an unreadable file ({reason(error)}), allowed a bundle") from error
+    _check_store(path, store)
+    return design
 
 
 def unzipped(blob: Any, most: int = LARGEST_BLOB) -> bytes:
@@ -100,6 +112,10 @@ def _check_members(path: FilePath, archive: zipfile.ZipFile) -> None:
             raise StudyError(f"{path}: found a file called {shown(name)}, allowed names within the bundle")
         if kind not in (0, stat.S_IFREG) or member.is_dir() or member.flag_bits & 1:
             raise StudyError(f"{path}: {shown(name)}: found a link, a folder or a locked file, allowed plain files")
+        if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise StudyError(
+                f"{path}: {shown(name)}: found compression {member.compress_type}, allowed 0 or 8 (deflate)"
+            )
         if name in seen:
             raise StudyError(f"{path}: found {shown(name)} twice, allowed once")
         seen.add(name)
