@@ -125,9 +125,7 @@ class _Writer:
             if parameter.slots is not None:
                 return {"anyOf": [{"type": "array", "items": one}, one]}
             return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
-        if parameter.hint is Terms:
-            return {"$ref": "#/$defs/terms"}
-        one = _of_type(parameter.hint)
+        one = {"$ref": "#/$defs/terms"} if parameter.own_type is Terms else _of_type(parameter.hint)
         return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
 
     def _terms(self) -> Schema:

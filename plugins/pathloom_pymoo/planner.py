@@ -6,7 +6,6 @@
 Parents and survivors are chosen as pymoo chooses them, the rest is done by components.
 """
 
-import dataclasses
 import time
 from abc import abstractmethod
 from collections.abc import Mapping
@@ -37,7 +36,6 @@ from pathloom import (
 )
 from pathloom.exact.aloof import Aloof
 from pathloom.exact.scalarised import Scalarised
-from pathloom.kernel.component import parameters
 from pathloom.kernel.constraint import Constraint
 from pathloom.kernel.counting import counting
 from pathloom.kernel.evaluation import measure
@@ -46,6 +44,7 @@ from pathloom.kernel.front import Front, FrontPlanner
 from pathloom.kernel.sampling import Mixed
 from pathloom.kernel.search import Search, check_representation
 from pathloom.kernel.state import Individual, generator
+from pathloom.kernel.variation import Variation
 from pathloom.paths.constraints import check_constraints
 from pathloom.paths.exchange import SharedNode
 from pathloom.paths.objectives import Length, Turns, UnsafeCells
@@ -91,7 +90,7 @@ class MultiObjective(FrontPlanner):
         check_representation(self, self.objectives, problem)
         began = time.perf_counter()
         with counting() as counts:
-            drawn = fitted(self.sampling, self.objectives).sample(problem, self.population, rng)
+            drawn = self.sampling.serving(self.objectives).sample(problem, self.population, rng)
             drawn = drawn.take(problem.representation.distinct(drawn)[0], 0)
             values, violation = self.evaluate(drawn, problem)
             front = Front(drawn[:0], values[:0])
@@ -117,22 +116,14 @@ class MultiObjective(FrontPlanner):
 
     def vary(self, population: Population, fitness: Floats, state: FrontState, rng: np.random.Generator) -> Population:
         """Return two children for each two rows of parents (2 k, width), pair after pair; ``fitness`` (2 k,)."""
-        problem, progress = state.problem, self.progress(state)
-        if self.crossover is not None:
-            rates: Floats | float = self.crossover.rate
-            if self.crossover.probability is not None:  # a pair goes by its fitter parent
-                rates = self.crossover.rates(fitness, progress).reshape(-1, 2)
-                rates = np.take_along_axis(rates, fitness.reshape(-1, 2).argmax(axis=1)[:, np.newaxis], 1)[:, 0]
-            crossed = (rng.random(len(population) // 2) < rates).nonzero()[0]
-            population = self.crossover.cross(population, np.stack((2 * crossed, 2 * crossed + 1), 1), problem, rng)
-        if self.mutation is not None:
-            adaptive = self.mutation.probability is not None
-            likely = self.mutation.rates(fitness, progress) if adaptive else self.mutation.rate
-            mutated = rng.random(len(population)) < likely
-            population = self.mutation.apply(population, mutated.nonzero()[0], problem, rng)
-        if self.repair is not None:
-            population = self.repair.apply(population, problem, rng)
-        return population
+        return self._variation.offspring(
+            population, fitness, lambda: np.arange(len(population)).reshape(-1, 2), state.problem,
+            self.progress(state), rng,
+        )  # fmt: skip
+
+    @cached_property
+    def _variation(self) -> Variation:
+        return Variation(self.crossover, self.mutation, self.repair).serving(self.objectives)
 
     def admitted(self, values: Floats, state: FrontState) -> Indices:
         """Return which of the children (n, m) compete with the population; all of them count for the front."""
@@ -248,17 +239,3 @@ def check_objectives(objectives: Terms) -> None:
         if term.objective in seen:
             raise ConfigError(f"objectives: {term.label!r} is the same objective as {seen[term.objective]!r}")
         seen[term.objective] = term.label
-
-
-def fitted(sampling: Sampling, objectives: Terms) -> Sampling:
-    """Return a sampling that minimises these objectives wherever it, or a part of it, minimises its default ones."""
-    changes: dict[str, Any] = {}
-    for parameter in parameters(type(sampling)):
-        value = getattr(sampling, parameter.name)
-        if isinstance(value, Terms) and value == parameter.default:
-            changes[parameter.name] = objectives
-        elif isinstance(value, Sampling):
-            changes[parameter.name] = fitted(value, objectives)
-        elif parameter.slots is Sampling:
-            changes[parameter.name] = tuple(fitted(part, objectives) for part in value)
-    return dataclasses.replace(sampling, **changes) if changes else sampling

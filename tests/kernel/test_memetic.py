@@ -1,5 +1,6 @@
 """Evolution that learns, newcomers, one of several mutations, and what the driver stamps."""
 
+import dataclasses
 from dataclasses import dataclass
 from itertools import count as counting_up
 from itertools import pairwise
@@ -253,6 +254,16 @@ def test_samplings_serve_the_planners_objectives_with_their_weights_however_deep
     planner = pl.compose(learner(Memetic()), objectives={"distance": SquaredDistance()})
     planner = pl.compose(planner, sampling=asking, objectives=Terms({"distance": (SquaredDistance(), 3.0)}))
     assert len(planner.start(PROBLEM, np.random.default_rng(0)).population) == 12
+
+
+def test_so_do_samplings_within_a_mutation_and_the_config_stays_as_it_was():
+    newcomers = OneOf(parts=(RandomImmigrants(sampling=Mixed(parts=(Asking(),))),))
+    planner = pl.compose(learner(Memetic()), objectives=Terms({"distance": (SquaredDistance(), 3.0)}))
+    planner = dataclasses.replace(planner, mutation=dataclasses.replace(newcomers, rate=1.0))
+    before = pl.freeze(planner)
+    state = planner.step(planner.step(planner.start(PROBLEM, np.random.default_rng(0))))
+    assert state.generation == 2  # the one that asks would have refused
+    assert pl.freeze(planner) == before
 
 
 class Steps:

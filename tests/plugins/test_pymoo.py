@@ -31,7 +31,6 @@ from pathloom.paths.objectives import Length, TurnAngle, Turns, UnsafeCells
 from pathloom_pymoo import adapters
 from pathloom_pymoo.archive import compromise, merged, new_values
 from pathloom_pymoo.nsga2 import Nsga2, rank_and_crowding
-from pathloom_pymoo.planner import fitted
 from pathloom_pymoo.reference import directions
 from pathloom_pymoo.survival import survive
 from pathloom_pymoo.tournament import by_dominance, by_least, contestants, winners
@@ -185,9 +184,9 @@ def test_stagnation_waits_for_the_front():
 def test_the_seeds_follow_the_objectives_unless_told_otherwise():
     objectives = pl.Terms({"length": Length(), "angle": TurnAngle()})
     default = Nsga2().sampling
-    assert fitted(default, objectives).parts[0].objectives == objectives
+    assert default.serving(objectives).parts[0].objectives == objectives
     own = build(pl.Sampling, {"use": "scalarised", "objectives": {"turns": 2.0}}, default_registry(), "")
-    assert fitted(own, objectives) == own
+    assert own.serving(objectives) == own
 
 
 def test_the_front_of_the_first_population_starts_with_the_optima():

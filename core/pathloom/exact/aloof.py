@@ -1,31 +1,24 @@
 """Seeds that keep their distance: scalarised optima among the paths that stay clear of obstacles."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom.exact.scalarised import Optima, weightings
+from pathloom.exact.scalarised import ByOptima, Optima, weightings
 from pathloom.grid.connectivity import labels
 from pathloom.kernel.component import Count
-from pathloom.kernel.counting import count
-from pathloom.kernel.evaluation import Floats, Terms
-from pathloom.kernel.operators import Sampling
-from pathloom.kernel.problem import Problem
+from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.representation import Population
-from pathloom.paths.additive import STEP_LENGTHS, Prices, prices_of
+from pathloom.paths.additive import STEP_LENGTHS, Prices
 from pathloom.paths.context import STEPS
-from pathloom.paths.pathwise import path_problem
-from pathloom.paths.priced_trees import USUAL
 from pathloom.paths.problem import PathProblem
-from pathloom.paths.tree_seeding import PerturbedTrees
 
 
 @dataclass(frozen=True, kw_only=True)
-class Aloof(Sampling):
+class Aloof(ByOptima):
     """Find the cheapest paths that stay at least so far from obstacles, for several distances.
 
     No weighted sum of additive objectives leads to the wide end of a front over
@@ -41,48 +34,18 @@ class Aloof(Sampling):
     distance of cells from obstacles as the constraint.
     """
 
-    works_on: ClassVar[str] = "cells"
-    gives: ClassVar[frozenset[str]] = frozenset({"8-connected"})
-
-    objectives: Terms = USUAL
-    """What is weighted. Left as it is, it stands for the objectives of the planner."""
     distances: Count = 24
     """How many distances there are at most; so few that there are two searches for each."""
-    vectors: Count = 66
-    """How many searches are made at most, over all distances."""
     work: Count = 6_000_000
-    """Limit of searches times cells of the map: on large maps fewer are made, or none."""
-    rest: Sampling = PerturbedTrees()
-    """Makes the individuals that are still missing."""
 
-    def serving(self, objectives: Terms) -> "Aloof":
-        mine = objectives if self.objectives == USUAL else self.objectives
-        return replace(self, objectives=mine, rest=self.rest.serving(objectives))
-
-    def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
-        it = path_problem(problem)
-        if not it.reachable:
-            return np.empty((0, 1), np.int32)
-        found = self._optima(it, n, rng)
-        missing = n - len(found)
-        count("samples by fallback", missing)
-        if missing == 0:
-            return found
-        filled = self.rest.sample(problem, missing, rng)
-        return it.representation.stack(found, filled) if len(found) else filled
-
-    def _optima(self, problem: PathProblem, n: int, rng: np.random.Generator) -> Population:
-        """Return up to n distinct optima."""
-        priced = [(prices_of(term.objective, problem), term.weight) for term in self.objectives]
-        prices = [one for one, _ in priced if one is not None]
-        own = np.array([weight for one, weight in priced if one is not None])
-        if len(prices) == len(priced):
+    def optima(self, problem: PathProblem, n: int, most: int, rng: np.random.Generator) -> Population:
+        prices, own = self.priced(problem)
+        if len(prices) == len(self.terms):
             return np.empty((0, 1), np.int32)
         if not prices:
-            prices, own = [Prices(step=STEP_LENGTHS)], np.ones(1)
+            prices, own = [Prices(step=STEP_LENGTHS)], [1.0]
         search = Optima(problem, prices, rng)
-        most = min(self.vectors, self.work // problem.context.blocked.size)
-        for distance, weights in islice(self._tries(problem, own, search, most, rng), most):
+        for distance, weights in islice(self._tries(problem, np.array(own), search, most, rng), most):
             search.run(weights, moves_at(problem, distance))
             if len(search.paths) >= n:
                 break

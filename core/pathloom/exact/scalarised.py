@@ -1,9 +1,9 @@
 """Seeds from scalarised exact searches: optima of weighted sums, each a corner of the Pareto front."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations, islice
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,15 +11,13 @@ from numpy.typing import NDArray
 from pathloom import compiled
 from pathloom.kernel.component import Count
 from pathloom.kernel.counting import count
-from pathloom.kernel.evaluation import Floats, Terms
-from pathloom.kernel.operators import Sampling
+from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
-from pathloom.paths.additive import Prices, prices_of, weighted
+from pathloom.paths.additive import Prices, weighted
 from pathloom.paths.pathwise import path_problem
-from pathloom.paths.priced_trees import USUAL
+from pathloom.paths.priced_sampling import PricedSampling
 from pathloom.paths.problem import PathProblem
-from pathloom.paths.tree_seeding import PerturbedTrees
 
 ASIDE = 1e-3
 """Least share of an objective: without any, an optimum might be better in it at no cost."""
@@ -28,36 +26,19 @@ TIE = 1e-10
 
 
 @dataclass(frozen=True, kw_only=True)
-class Scalarised(Sampling):
-    """Find the cheapest 8-connected path under one weighting after the other; fill up with other samples.
+class ByOptima(PricedSampling, ABC):
+    """Base of samplings whose individuals are exact optima, each of another weighting; others fill up."""
 
-    First under the objectives' own weights, then for each objective almost alone,
-    then under the weightings of a lattice on the simplex in random order, then
-    under random ones. Objectives are scaled by their ranges among the paths found
-    till then. What is not additive is left out, and counted.
-    """
-
-    works_on: ClassVar[str] = "cells"
-    gives: ClassVar[frozenset[str]] = frozenset({"8-connected"})
-
-    objectives: Terms = USUAL
-    """What is weighted. Left as it is, it stands for the objectives of the planner."""
     vectors: Count = 66
-    """How many weightings are tried at most; 1: the objectives' own weights alone."""
+    """How many searches are made at most."""
     work: Count = 2_000_000
-    """Limit of weightings times cells of the map: on large maps fewer are tried, or none."""
-    rest: Sampling = PerturbedTrees()
-    """Makes the individuals that are still missing."""
-
-    def serving(self, objectives: Terms) -> "Scalarised":
-        mine = objectives if self.objectives == USUAL else self.objectives
-        return replace(self, objectives=mine, rest=self.rest.serving(objectives))
+    """Limit of searches times cells of the map: on large maps fewer are made, or none."""
 
     def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
         it = path_problem(problem)
         if not it.reachable:
             return np.empty((0, 1), np.int32)
-        found = self._optima(it, n, rng)
+        found = self.optima(it, n, min(self.vectors, self.work // it.context.blocked.size), rng)[:n]
         missing = n - len(found)
         count("samples by fallback", missing)
         if missing == 0:
@@ -65,20 +46,31 @@ class Scalarised(Sampling):
         filled = self.rest.sample(problem, missing, rng)
         return it.representation.stack(found, filled) if len(found) else filled
 
-    def _optima(self, problem: PathProblem, n: int, rng: np.random.Generator) -> Population:
-        """Return up to n distinct optima."""
-        priced = [(prices_of(term.objective, problem), term.weight) for term in self.objectives]
-        prices = [one for one, _ in priced if one is not None]
-        count("objectives not additive", len(priced) - len(prices))
-        cells = problem.context.blocked.size
+    @abstractmethod
+    def optima(self, problem: PathProblem, n: int, most: int, rng: np.random.Generator) -> Population:
+        """Return distinct optima, n or so, after ``most`` searches at most."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scalarised(ByOptima):
+    """Find the cheapest 8-connected path under one weighting after the other; fill up with other samples.
+
+    First under the objectives' own weights (with one search, ``vectors`` = 1, under
+    no others), then for each objective almost alone, then under the weightings of a
+    lattice on the simplex in random order, then under random ones. Objectives are
+    scaled by their ranges among the paths found till then. What is not additive is
+    left out, and counted.
+    """
+
+    def optima(self, problem: PathProblem, n: int, most: int, rng: np.random.Generator) -> Population:
+        prices, own = self.priced(problem)
         search = Optima(problem, prices, rng)
         if prices:
-            own = np.array([weight for one, weight in priced if one is not None])
-            for weights in islice(weightings(own, self.vectors, search, rng), min(self.vectors, self.work // cells)):
+            for weights in islice(weightings(np.array(own), self.vectors, search, rng), most):
                 search.run(weights)
                 if len(search.paths) >= n:
                     break
-        return search.population[:n]
+        return search.population
 
 
 class Optima:

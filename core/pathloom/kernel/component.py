@@ -80,6 +80,20 @@ class Component:
             if checked is not value:
                 object.__setattr__(self, parameter.name, checked)
 
+    def serving(self, objectives: Any) -> typing.Self:
+        """Return the component as it serves a planner with these objectives (`Terms`): with parts that serve it.
+
+        What prices or measures by the planner's objectives takes them over here.
+        """
+        changes: dict[str, Any] = {}
+        for parameter in parameters(type(self)):
+            value = getattr(self, parameter.name)
+            parts = value if isinstance(value, tuple) else (value,)
+            served = tuple(part.serving(objectives) if isinstance(part, Component) else part for part in parts)
+            if any(new is not old for new, old in zip(served, parts, strict=True)):
+                changes[parameter.name] = served if isinstance(value, tuple) else served[0]
+        return dataclasses.replace(self, **changes) if changes else self  # type: ignore[type-var]
+
 
 @dataclasses.dataclass(frozen=True)
 class Parameter:
@@ -116,6 +130,11 @@ class Parameter:
         return None
 
     @property
+    def own_type(self) -> Any:
+        """The type that the field takes if that is one which checks its values itself: a table of objectives."""
+        return next((h for h in _alternatives(self.hint) if hasattr(h, "__checked__")), None)
+
+    @property
     def allowed(self) -> str:
         """The values allowed, in words."""
         return describe(self.hint)
@@ -136,8 +155,8 @@ class Parameter:
             if not (value is None and self.optional) and not all(isinstance(v, kind) for v in found):
                 raise ConfigError(f"{where} takes {self.allowed}; got {value!r}")
             return value
-        if hasattr(self.hint, "__checked__"):
-            return self.hint.__checked__(value, where)
+        if self.own_type is not None:
+            return None if value is None and self.optional else self.own_type.__checked__(value, where)
         if isinstance(value, np.generic):
             value = value.item()
         try:

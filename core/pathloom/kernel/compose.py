@@ -183,12 +183,12 @@ def _value(parameter: Parameter, value: Any, current: Any, registry: Registry, w
         return tuple(
             build(kind, v, registry, f"{where}[{i}]" if len(listed) > 1 else where) for i, v in enumerate(listed)
         )
-    if parameter.hint is Terms:
+    if isinstance(value, str) and value == NONE and parameter.optional:
+        return None
+    if parameter.own_type is Terms and value is not None:
         return _terms(value, registry, where)
     if isinstance(value, list):
         value = tuple(value)
-    if isinstance(value, str) and value == NONE and parameter.optional:
-        return None
     return parameter.check(value, where)
 
 

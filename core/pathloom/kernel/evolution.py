@@ -10,6 +10,7 @@ component of kind *control* or *migration*, never a branch in this loop.
 import time
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -36,6 +37,7 @@ from pathloom.kernel.search import Search
 from pathloom.kernel.selection import RandomPairs, Roulette
 from pathloom.kernel.state import Deme, State, generator
 from pathloom.kernel.survival import Replacement
+from pathloom.kernel.variation import Variation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,28 +135,13 @@ class Evolution(Search):
         rng: np.random.Generator,
     ) -> Population:
         """Return the offspring of selected parents; ``fitness`` (n,) is the parents'."""
-        if self.crossover is not None:
-            pairs = self.pairing.pair(fitness, rng)
-            crossed = rng.random(len(pairs)) < self._pair_rates(self.crossover, pairs, fitness, progress)
-            population = self.crossover.cross(population, pairs[crossed], problem, rng)
-        if self.mutation is not None:
-            # A child is mutated with the rate of the parent whose row it took: its own fitness is not known yet.
-            adaptive = self.mutation.probability is not None
-            rates = self.mutation.rates(fitness, progress) if adaptive else self.mutation.rate
-            mutated = rng.random(len(population)) < rates
-            population = self.mutation.apply(population, mutated.nonzero()[0], problem, rng)
-        if self.repair is not None:
-            population = self.repair.apply(population, problem, rng)
-        return population
+        return self._variation.offspring(
+            population, fitness, lambda: self.pairing.pair(fitness, rng), problem, progress, rng
+        )
 
-    @staticmethod
-    def _pair_rates(crossover: Crossover, pairs: Indices, fitness: Floats, progress: float) -> Floats | float:
-        """Return how likely each pair is to be crossed: the rate of its fitter parent."""
-        if crossover.probability is None:
-            return crossover.rate
-        first, second = pairs[:, 0], pairs[:, 1]
-        fitter = np.where(fitness[first] >= fitness[second], first, second)
-        return np.asarray(crossover.rates(fitness, progress)[fitter])
+    @cached_property
+    def _variation(self) -> Variation:
+        return Variation(self.crossover, self.mutation, self.repair).serving(self.objectives)
 
     def _reached(
         self, before: State, demes: tuple[Deme, ...], generation: int, rng: np.random.Generator,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.kernel.component import Component, Share
-from pathloom.kernel.evaluation import Floats, Terms
+from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
 from pathloom.kernel.state import Deme, State
@@ -29,10 +29,6 @@ class Sampling(Component, ABC):
     @abstractmethod
     def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
         """Return up to n new individuals; fewer where no more could be found."""
-
-    def serving(self, objectives: Terms) -> "Sampling":
-        """Return the sampling as it serves a planner with these objectives; itself where they do not matter to it."""
-        return self
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,12 +1,11 @@
 """Sampling that no paper owns."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pathloom.kernel.component import NonNegative
-from pathloom.kernel.evaluation import Terms
 from pathloom.kernel.operators import Sampling
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
@@ -31,9 +30,6 @@ class Mixed(Sampling):
         check_shares(self.name, self.parts, self.shares, "sampling")
         # What all of them give is given, and what one of them works on is needed.
         object.__setattr__(self, "gives", frozenset.intersection(*(part.gives for part in self.parts)))
-
-    def serving(self, objectives: Terms) -> "Mixed":
-        return replace(self, parts=tuple(part.serving(objectives) for part in self.parts))
 
     def sample(self, problem: Problem, n: int, rng: np.random.Generator) -> Population:
         due = np.cumsum(self._sizes(n))  # how many there are to be after each part
