@@ -3,11 +3,12 @@
 import json
 import math
 import platform
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cache, cached_property
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +20,53 @@ from pathloom.paths.problem import PathProblem
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SCHEMA = "pathloom.plan/1"
 Status = Literal["found", "unreachable", "not-found"]
 
 
+class Document(ABC):
+    """A result that can be written as a JSON document and read again."""
+
+    schema: ClassVar[str]
+    """Name and version of the document's form."""
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """Return the JSON document as Python values."""
+
+    def to_json(self) -> str:
+        """Return the result as a JSON document."""
+        return json.dumps(self.to_dict(), allow_nan=False, ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Return the result that a JSON document describes; it knows the map by name only.
+
+        Raises
+        ------
+        PathloomError
+            If it is no document of this kind.
+        """
+        try:
+            document = json.loads(text)
+            if document.pop("schema") != cls.schema:
+                raise KeyError("schema")
+            values = cls.read(document)
+            known = {f.name for f in fields(cls)} - {"path_problem"}  # type: ignore[arg-type]  # all are dataclasses
+            return cls(**{k: v for k, v in values.items() if k in known})
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise PathloomError(f"no document of schema {cls.schema!r}: {type(error).__name__}: {error}") from error
+
+    @classmethod
+    @abstractmethod
+    def read(cls, values: dict[str, Any]) -> dict[str, Any]:
+        """Return the values of the fields that those of a document stand for."""
+
+
 @dataclass(frozen=True)
-class Result:
+class Result(Document):
     """The outcome of planning one path. Cells are (row, column), lengths are in cells."""
+
+    schema: ClassVar[str] = "pathloom.plan/1"
 
     status: Status
     planner: str
@@ -84,39 +125,17 @@ class Result:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON document as Python values."""
-        document: dict[str, Any] = {"schema": SCHEMA}
-        for item in fields(self):
-            if item.name != "path_problem":
-                document[item.name] = plain(getattr(self, item.name))
-        return document
-
-    def to_json(self) -> str:
-        """Return the result as a JSON document, ``pathloom.plan/1``."""
-        return json.dumps(self.to_dict(), allow_nan=False, ensure_ascii=False)
+        known = {item.name: plain(getattr(self, item.name)) for item in fields(self) if item.name != "path_problem"}
+        return {"schema": self.schema, **known}
 
     @classmethod
-    def from_json(cls, text: str) -> "Result":
-        """Return the result that a JSON document describes; it knows the map by name only.
-
-        Raises
-        ------
-        PathloomError
-            If it is no document of this kind.
-        """
-        try:
-            document = json.loads(text)
-            if document.pop("schema") != SCHEMA:
-                raise KeyError("schema")
-            known = {f.name for f in fields(cls)} - {"path_problem"}
-            values = {k: v for k, v in document.items() if k in known}
-            for name, dtype in (("path", np.int64), ("unrefined", np.int64), ("world", np.float64)):
-                if values.get(name) is not None:
-                    values[name] = np.array(values[name], dtype).reshape(-1, 2)
-            if values.get("curve") is not None:
-                values["curve"] = _curve(values["curve"])
-            return cls(**values)
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise PathloomError(f"no document of schema {SCHEMA!r}: {type(error).__name__}: {error}") from error
+    def read(cls, values: dict[str, Any]) -> dict[str, Any]:
+        for name, dtype in (("path", np.int64), ("unrefined", np.int64), ("world", np.float64)):
+            if values.get(name) is not None:
+                values[name] = np.array(values[name], dtype).reshape(-1, 2)
+        if values.get("curve") is not None:
+            values["curve"] = _curve(values["curve"])
+        return values
 
     def plot(self, file: Any = None, *, dark: bool = False) -> "Figure":
         """Draw map, path and convergence; save to ``file`` if one is given.

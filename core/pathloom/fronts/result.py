@@ -1,23 +1,19 @@
 """ParetoResult: a front, what it took to find it, and how good it is; to and from JSON."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from pathloom.errors import PathloomError
 from pathloom.fronts.against import Placement, Rival
 from pathloom.kernel.evaluation import Floats
 from pathloom.paths.cell_paths import Path
 from pathloom.paths.problem import PathProblem
-from pathloom.result import Status, map_title, plain
+from pathloom.result import Document, Status, map_title, plain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-SCHEMA = "pathloom.pareto/1"
 
 
 class Member(NamedTuple):
@@ -44,8 +40,10 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class ParetoResult:
+class ParetoResult(Document):
     """The outcome of planning a front. Cells are (row, column), all objectives are minimised."""
+
+    schema: ClassVar[str] = "pathloom.pareto/1"
 
     status: Status
     planner: str
@@ -109,7 +107,7 @@ class ParetoResult:
         members = [plain(member._asdict()) for member in self.front]
         for member, place in zip(members, self.world or (), strict=False):
             member["world"] = plain(place)
-        document: dict[str, Any] = {"schema": SCHEMA}
+        document: dict[str, Any] = {"schema": self.schema}
         for item in fields(self):
             if item.name == "values":
                 document["front"] = members
@@ -117,42 +115,22 @@ class ParetoResult:
                 document[item.name] = _written(getattr(self, item.name))
         return document
 
-    def to_json(self) -> str:
-        """Return the result as a JSON document, ``pathloom.pareto/1``."""
-        return json.dumps(self.to_dict(), allow_nan=False, ensure_ascii=False)
-
     @classmethod
-    def from_json(cls, text: str) -> "ParetoResult":
-        """Return the result that a JSON document describes; it knows the map by name only.
-
-        Raises
-        ------
-        PathloomError
-            If it is no document of this kind.
-        """
-        try:
-            document = json.loads(text)
-            if document.pop("schema") != SCHEMA:
-                raise KeyError("schema")
-            members = document.pop("front")
-            known = {f.name for f in fields(cls)} - {"path_problem"}
-            values = {k: v for k, v in document.items() if k in known}
-            m = len(values["objectives"])
-            values["objectives"] = tuple(values["objectives"])
-            values["values"] = np.array([member["values"] for member in members], np.float64).reshape(-1, m)
-            values["paths"] = tuple(np.array(member["path"], np.int64).reshape(-1, 2) for member in members)
-            weights = [member["pseudo_weights"] for member in members]
-            values["pseudo_weights"] = np.array(weights, np.float64).reshape(-1, m)
-            if members and "world" in members[0]:
-                values["world"] = tuple(np.array(member["world"], np.float64).reshape(-1, 2) for member in members)
-            if values.get("choice") is not None:
-                values["choice"] = Choice(**values["choice"])
-            if values.get("exact") is not None:
-                values["exact"] = np.array(values["exact"], np.float64).reshape(-1, m)
-            values["against"] = tuple(_rival(rival) for rival in values.get("against", ()))
-            return cls(**values)
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise PathloomError(f"no document of schema {SCHEMA!r}: {type(error).__name__}: {error}") from error
+    def read(cls, values: dict[str, Any]) -> dict[str, Any]:
+        members, m = values.pop("front"), len(values["objectives"])
+        values["objectives"] = tuple(values["objectives"])
+        values["values"] = np.array([member["values"] for member in members], np.float64).reshape(-1, m)
+        values["paths"] = tuple(np.array(member["path"], np.int64).reshape(-1, 2) for member in members)
+        weights = [member["pseudo_weights"] for member in members]
+        values["pseudo_weights"] = np.array(weights, np.float64).reshape(-1, m)
+        if members and "world" in members[0]:
+            values["world"] = tuple(np.array(member["world"], np.float64).reshape(-1, 2) for member in members)
+        if values.get("choice") is not None:
+            values["choice"] = Choice(**values["choice"])
+        if values.get("exact") is not None:
+            values["exact"] = np.array(values["exact"], np.float64).reshape(-1, m)
+        values["against"] = tuple(_rival(rival) for rival in values.get("against", ()))
+        return values
 
     def plot(self, file: Any = None, *, panels: Any = None, colour: str | None = None, dark: bool = False) -> "Figure":
         """Draw the front; save to ``file`` if one is given.
