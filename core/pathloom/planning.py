@@ -76,20 +76,10 @@ def plan(
     ConfigError
         If the planner, one of its parts, the smoother or the seed is not usable.
     """
-    seed = check_seed(seed)
-    if time_limit is not None and not time_limit > 0:
-        raise ConfigError(f"time limit: found {time_limit!r}, allowed seconds above 0")
+    seed = check_limits(seed, time_limit)
     composed = lasting(composition.compose(planner), time_limit)
-    asked_for = smoother(smooth, "smooth")
-    name = map_name or problem.grid.name or "unnamed"
-    facts: dict[str, Any] = {
-        "planner": default_registry().name_of(type(composed)).rpartition("/")[2],
-        "seed": seed,
-        "problem": describe_problem(problem, name),
-        "config": frozen(problem, name, composed, seed, time_limit, asked_for),
-        "versions": versions(),
-        "path_problem": problem,
-    }
+    wanted = smoother(smooth, "smooth")
+    facts = asked_for(problem, composed, seed, time_limit, map_name, wanted)
     if not problem.reachable:
         return Result(status="unreachable", reason=no_way(problem), **facts)
 
@@ -97,9 +87,9 @@ def plan(
     state, outcome = finished.state, finished.outcome
     path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
     facts["interrupted"] = finished.interrupted
-    polyline, chosen = None, asked_for
+    polyline, chosen = None, wanted
     if isinstance(composed, PolylinePlanner) and state is not None:
-        polyline, chosen = composed.polyline(state), asked_for or composed.smoothing
+        polyline, chosen = composed.polyline(state), wanted or composed.smoothing
     if path is not None:
         facts |= _facts_of(path, polyline, problem, composed)
         if chosen is not None:
@@ -108,9 +98,7 @@ def plan(
                     problem, chosen, path if polyline is None else polyline, phases
                 )
                 reason = reason or fault
-    if state is not None:
-        facts["history"] = {name: list(getattr(state.history, name)) for name in Record._fields}
-    facts["budget"] = budget_of(state, phases, finished)
+    facts |= effort_of(finished, phases)
     if optimum:
         with interruptible(facts):
             facts["optimum"], facts["gap"] = _references(
@@ -135,6 +123,36 @@ def iterate(
     if isinstance(problem, PathProblem) and not problem.reachable:
         raise ProblemError(f"the goal cannot be reached under the corner policy {problem.corners!r}")
     return iterate_planner(problem, composed, seed)
+
+
+def check_limits(seed: object, time_limit: float | None) -> int:
+    """Return the seed, if it and the time limit can be used.
+
+    Raises
+    ------
+    ConfigError
+        Which of them cannot.
+    """
+    number = check_seed(seed)
+    if time_limit is not None and not time_limit > 0:
+        raise ConfigError(f"time limit: found {time_limit!r}, allowed seconds above 0")
+    return number
+
+
+def asked_for(
+    problem: PathProblem, planner: Planner, seed: int, time_limit: float | None, map_name: str,
+    smooth: Smoother | None = None,
+) -> dict[str, Any]:  # fmt: skip
+    """Return what a result says of what was asked for."""
+    name = map_name or problem.grid.name or "unnamed"
+    return {
+        "planner": default_registry().name_of(type(planner)).rpartition("/")[2],
+        "seed": seed,
+        "problem": describe_problem(problem, name),
+        "config": frozen(problem, name, planner, seed, time_limit, smooth),
+        "versions": versions(),
+        "path_problem": problem,
+    }
 
 
 def no_way(problem: PathProblem) -> str:
@@ -184,17 +202,21 @@ def _facts_of(path: Path, polyline: Points | None, problem: PathProblem, planner
     return {"metrics": found, "objectives": objectives, "fitness": fitness, **world}
 
 
-def budget_of(state: State | None, phases: dict[str, float], finished: Run | None = None) -> dict[str, Any]:
-    """Return what a run took, and when it found its first answer and its last."""
-    found = {} if finished is None else {"seconds_to_first": finished.first, "seconds_to_best": finished.best}
-    return {
+def effort_of(finished: Run, phases: Mapping[str, float]) -> dict[str, Any]:
+    """Return what a run took, when it found its first answer and its last, and its history."""
+    state = finished.state
+    budget = {
         "generations": state.generation if state else 0,
         "evaluations": state.evaluations if state else 0,
         "seconds": sum(phases.values()) - phases["loading"],
-        **found,
+        "seconds_to_first": finished.first,
+        "seconds_to_best": finished.best,
         "phases": phases,
         "counts": dict(sorted(state.counts.items())) if state else {},
     }
+    if state is None:
+        return {"budget": budget}
+    return {"budget": budget, "history": {name: list(getattr(state.history, name)) for name in Record._fields}}
 
 
 def _verified(problem: PathProblem, solution: Any, found: Any, reason: str) -> tuple[Path | None, Path | None, str]:

@@ -10,8 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pathloom.compiled.jit import seconds_loading
-from pathloom.config import frozen
-from pathloom.errors import ConfigError
 from pathloom.fronts import Asked, Choice, ParetoResult, Rival, Verified, indicators, knee, place, preferred, verified
 from pathloom.fronts import pseudo_weights as pseudo_weights_of
 from pathloom.fronts.against import shortcut
@@ -19,14 +17,12 @@ from pathloom.kernel.constraint import Constraint
 from pathloom.kernel.evaluation import Floats, Terms
 from pathloom.kernel.front import Front, FrontPlanner
 from pathloom.kernel.planner import Planner
-from pathloom.kernel.registry import default_registry
-from pathloom.kernel.run import Run, check_interrupt, check_seed
-from pathloom.kernel.state import Record, State
+from pathloom.kernel.run import check_interrupt
+from pathloom.kernel.state import State
 from pathloom.multiobjective.composing import Objectives, front_planner
 from pathloom.paths.constraints import Bound
 from pathloom.paths.problem import PathProblem
-from pathloom.planning import budget_of, interruptible, no_way, plan, searched
-from pathloom.result import Status, describe_problem, versions
+from pathloom.planning import asked_for, check_limits, effort_of, interruptible, no_way, plan, searched
 
 DEFAULT_PLANNER = "pymoo/nsga2"
 
@@ -94,9 +90,7 @@ def pareto(
     ConfigError
         If the planner, an objective, a constraint or anything else asked for cannot be used.
     """
-    seed = check_seed(seed)
-    if time_limit is not None and not time_limit > 0:
-        raise ConfigError(f"time limit: found {time_limit!r}, allowed seconds above 0")
+    seed = check_limits(seed, time_limit)
     composed = front_planner(planner, objectives, constraints)
     asked = Asked(
         exact=exact, against=tuple(against), runs=runs, prefer=prefer,
@@ -104,48 +98,49 @@ def pareto(
     )  # fmt: skip
     asked.check(composed.objectives)
     rivals = asked.rivals()
-    name = map_name or problem.grid.name or "unnamed"
-    facts: dict[str, Any] = {
-        "planner": default_registry().name_of(type(composed)).rpartition("/")[2],
-        "seed": seed,
-        "problem": describe_problem(problem, name),
-        "objectives": composed.objectives.labels,
-        "values": np.empty((0, len(composed.objectives))),
-        "pseudo_weights": np.empty((0, len(composed.objectives))),
-        "config": {**frozen(problem, name, composed, seed, time_limit), "front": asked.frozen()},
-        "versions": {**versions(), **{name: version(name) for name in ("moocore", "pymoo")}},
-        "path_problem": problem,
-    }
+    facts = _asked_for(problem, composed, asked, seed, time_limit, map_name)
     if not problem.reachable:
         return ParetoResult(status="unreachable", reason=no_way(problem), **facts)
 
     finished, phases = searched(problem, composed, seed, time_limit, watch)
     facts["interrupted"] = finished.interrupted
     found, reason = _front_of(problem, composed, finished.state, finished.outcome.reason, facts)
-    if finished.state is not None:
-        history = finished.state.history
-        facts["history"] = {name: list(getattr(history, name)) for name in Record._fields}
-    facts["budget"] = _budget(finished, phases, found)
+    facts |= effort_of(finished, phases)
+    facts["budget"]["counts"] = dict(sorted({**facts["budget"]["counts"], **found.counts}.items()))
     if len(found.values) == 0:
         return ParetoResult(status="not-found", reason=reason, **facts)
 
-    notes = [reason] if reason else []
     spent: dict[str, float] = {}
+    facts["budget"]["references"] = spent
     if exact:
         with interruptible(facts), _timed(spent, "exact"):
             facts["exact"], note = _exact_front(problem, composed)
-            notes += [note] if note else []
+            reason = "; ".join(filter(None, (reason, note)))
     facts |= _facts_of(found, problem, composed, asked, facts.get("exact"))
     if rivals:
         placed: list[Rival] = []
         with interruptible(facts), _timed(spent, "against"):
             straight = shortcut(found.paths, problem, composed.objectives)
-            for result in _runs(problem, rivals, seed, runs, time_limit, name):
+            for result in _runs(problem, rivals, seed, runs, time_limit, facts["problem"]["map"]):
                 placed.append(place(result, problem, composed.objectives, found.values, straight))  # noqa: PERF401 - kept if interrupted
         facts["against"] = tuple(placed)
-    facts["budget"]["references"] = spent
-    status: Status = "found"
-    return ParetoResult(status=status, reason="; ".join(notes), **facts)
+    return ParetoResult(status="found", reason=reason, **facts)
+
+
+def _asked_for(
+    problem: PathProblem, planner: FrontPlanner, asked: Asked, seed: int, time_limit: float | None, map_name: str
+) -> dict[str, Any]:
+    """Return what a result says of what was asked for, and that there is no front yet."""
+    facts = asked_for(problem, planner, seed, time_limit, map_name)
+    none = np.empty((0, len(planner.objectives)))
+    return {
+        **facts,
+        "objectives": planner.objectives.labels,
+        "values": none,
+        "pseudo_weights": none,
+        "config": {**facts["config"], "front": asked.frozen()},
+        "versions": {**facts["versions"], **{name: version(name) for name in ("moocore", "pymoo")}},
+    }
 
 
 def _front_of(
@@ -169,11 +164,6 @@ def _front_of(
 def constraints_of(planner: FrontPlanner) -> tuple[Constraint, ...]:
     """Return the constraints of a planner that knows any."""
     return tuple(getattr(planner, "constraints", ()))
-
-
-def _budget(finished: Run, phases: dict[str, float], found: Verified) -> dict[str, Any]:
-    budget = budget_of(finished.state, phases, finished)
-    return {**budget, "counts": dict(sorted({**budget["counts"], **found.counts}.items()))}
 
 
 def _facts_of(
