@@ -96,7 +96,7 @@ class _Writer:
             }
             found |= {_reference(e).rpartition("/")[2]: self._component(e) for e in entries}
         if Objective.kind in self._kinds:
-            found["terms"] = self._terms()
+            found["terms"], found["term"] = self._terms()
         return found
 
     def _of(self, kind: str) -> list[Entry]:
@@ -128,17 +128,19 @@ class _Writer:
         one = {"$ref": "#/$defs/terms"} if parameter.own_type is Terms else _of_type(parameter.hint)
         return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
 
-    def _terms(self) -> Schema:
+    def _terms(self) -> tuple[Schema, Schema]:
+        """Return the schemas of a table of objectives, and of one in it whose label may be any word."""
         entries = self._of(Objective.kind)
-        full = [self._component(e, weight=NUMBER) for e in entries]
+        weighed = {entry.name: self._component(entry, weight=NUMBER) for entry in entries}
         by_name: Schema = {}
         for entry in entries:
-            own = self._component(entry, weight=NUMBER)
+            own = weighed[entry.name]
             by_label = {**own, "required": [r for r in own["required"] if r != "use"]}
             for name in _names([entry]):  # the label names the objective: a weight alone will do
-                by_name[name] = {"anyOf": [NUMBER, {"enum": _names(entries)}, by_label, *full]}
-        other = {"anyOf": [{"enum": _names(entries)}, *full]}
-        return {"type": "object", "minProperties": 1, "properties": by_name, "additionalProperties": other}
+                by_name[name] = {"anyOf": [NUMBER, by_label, {"$ref": "#/$defs/term"}]}
+        term = {"anyOf": [{"enum": _names(entries)}, *weighed.values()]}
+        other = {"$ref": "#/$defs/term"}
+        return {"type": "object", "minProperties": 1, "properties": by_name, "additionalProperties": other}, term
 
 
 def _names(entries: list[Entry]) -> list[str]:
