@@ -7,7 +7,8 @@ import pytest
 
 from pathloom.draw import study as draw
 from pathloom.draw.saving import save
-from pathloom.draw.study import Curve, Effect
+from pathloom.draw.study import Curve, Effect, Sheet
+from pathloom.draw.study.series import line
 
 NAMES = ["imga", "selection=roulette", "selection=imaga/three-stage", "sampling=$x_1$", "without mutation",
          "crossover=a-plugin/with-a-name-that-is-much-too-long-for-a-column"]  # fmt: skip
@@ -23,22 +24,22 @@ def curves(count: int, *, bands: bool = False) -> dict[str, Curve]:
 
 
 def made(kind: str, count: int = 4, *, dark: bool = False, **how):
-    heading = {"title": "a title of $some$ length " * 2, "caption": "a caption " * 9, "dark": dark, **how}
+    sheet = Sheet(title="a title of $some$ length " * 2, caption="a caption " * 9, dark=dark, **how)
     names = NAMES[:count]
     rng = np.random.default_rng(1)
     if kind == "ranks":
         ranks = {name: 1.0 + 0.8 * k for k, name in enumerate(names)}
         groups = [names[k : k + 2] for k in range(count - 1)]
-        return draw.critical_difference_figure(ranks, groups, critical=1.1, **heading)
+        return draw.critical_difference_figure(ranks, groups, critical=1.1, sheet=sheet)
     if kind == "spread":
         samples = {name: rng.exponential(0.05, 30) for name in names}
-        return draw.spread_figure(samples, missing={names[0]: 3}, percent=True, **heading)
+        return draw.spread_figure(samples, missing={names[0]: 3}, percent=True, sheet=sheet)
     if kind == "effects":
         effects = [Effect(name, ["1", "2", "3"], rng.normal(size=3), np.ones(3)) for name in names]
-        return draw.main_effects_figure(effects, mean=0.0, **heading)
+        return draw.main_effects_figure(effects, mean=0.0, sheet=sheet)
     if kind == "bands":
-        return draw.bands_figure(curves(count, bands=True), percent=True, **heading)
-    return getattr(draw, f"{kind}_figure")(curves(count), **heading)
+        return draw.bands_figure(curves(count, bands=True), percent=True, sheet=sheet)
+    return getattr(draw, f"{kind}_figure")(curves(count), sheet=sheet)
 
 
 KINDS = ["ranks", "ecdf", "profile", "bands", "spread", "effects"]
@@ -109,7 +110,7 @@ def test_effects_share_one_scale_and_may_have_no_errors():
 
 
 def test_many_variants_differ_in_colour_or_dash():
-    looks = {(draw._line(k, False)["color"], str(draw._line(k, False)["linestyle"])) for k in range(16)}
+    looks = {(look["color"], str(look["linestyle"])) for look in (line(k, dark=False) for k in range(16))}
     assert len(looks) == 16
 
 

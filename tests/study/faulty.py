@@ -65,7 +65,7 @@ class Dying(Straight):
 
     def misbehave(self, rng):
         if self.always or rng.random() < 0.5:
-            os.kill(os.getpid(), signal.SIGKILL)
+            os.kill(os.getpid(), getattr(signal, "SIGKILL", signal.SIGTERM))  # on Windows the one is the other
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,6 +1,5 @@
 """Studies on a Dask cluster: the scheduler and its workers are processes of their own."""
 
-import signal
 import subprocess
 import sys
 import time
@@ -73,7 +72,7 @@ def test_a_cluster_finds_what_this_machine_finds_also_if_a_worker_is_killed(clus
 
     def watch(pace, what):
         if what == "runs" and pace.done >= 5 and victim.poll() is None:
-            victim.send_signal(signal.SIGKILL)
+            victim.kill()
             victim.wait()
 
     there = pl.ablate("imga", **asked, dask=cluster.address, out=tmp_path / "s.db", watch=watch)

@@ -1,49 +1,51 @@
 """The driver: it keeps lanes busy, and no more than that."""
 
 import time
-from collections import deque
-from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
+from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
 import pytest
 
 from pathloom.study.execute import execute
 from pathloom.study.lanes import Lane
-from pathloom.study.worker import Order, Reply
+from pathloom.study.worker import Order, Reply, perform
+
+
+class Script(Executor):
+    """Answers each order at once, as a function says: with a reply, or with what is raised."""
+
+    def __init__(self, answer):
+        self.answer, self.sent = answer, []
+
+    def submit(self, job, order):
+        assert job is perform
+        self.sent.append(order)
+        future, answer = Future(), self.answer(order, self.sent)
+        if isinstance(answer, BaseException):
+            future.set_exception(answer)
+        else:
+            future.set_result(answer)
+        return future
 
 
 class Scripted(Lane):
-    """Answers each order at once, as a script says: a reply, or what is raised."""
+    """Sends its orders to such an executor, and remembers what else was asked of it."""
 
     room = 2
     tells_the_culprit = True
     ends_by_force = True
 
-    def __init__(self, script):
+    def __init__(self, pool):
         super().__init__()
-        self.script, self.sent, self.most, self.renewed, self.stopped = script, [], 0, 0, False
-        self.waiting = deque()
+        self.pool, self.most, self.renewed, self.stopped = pool, 0, 0, False
 
     def executor(self):
-        raise NotImplementedError
+        return self.pool
 
     def send(self, order):
-        future = Future()
-        self.flying[future] = order
-        self.sent.append(order)
+        future = super().send(order)
         self.most = max(self.most, len(self.flying))
-        self.waiting.append((future, order))
-        while self.waiting:
-            first, what = self.waiting.popleft()
-            self.answer(first, what)
         return future
-
-    def answer(self, future, order):
-        answer = self.script(order, self.sent)
-        if isinstance(answer, BaseException):
-            future.set_exception(answer)
-        else:
-            future.set_result(answer)
 
     def renew(self):
         self.renewed += 1
@@ -58,7 +60,7 @@ def orders(count):
 
 
 def carried_out(script, count=4, lanes=1):
-    made = [Scripted(script) for _ in range(lanes)]
+    made = [Scripted(Script(script)) for _ in range(lanes)]
     answers = []
     execute(iter(orders(count)), made, parts=str.encode, record=answers.extend)
     return made, answers
@@ -76,18 +78,11 @@ def test_every_order_is_answered_once_and_few_are_under_way():
 
 
 def test_no_lane_has_more_under_way_than_it_has_room_for():
-    class Slow(Scripted):
-        def __init__(self):
-            super().__init__(fine)
-            self.pool = ThreadPoolExecutor(1)
+    class Slow(ThreadPoolExecutor):
+        def submit(self, job, order):
+            return super().submit(lambda: time.sleep(0.002 * (order.seed % 3)) or fine(order, []))
 
-        def send(self, order):
-            future = self.pool.submit(lambda: time.sleep(0.002 * (order.seed % 3)) or fine(order, []))
-            self.flying[future] = order
-            self.most = max(self.most, len(self.flying))
-            return future
-
-    lanes, answers = [Slow(), Slow()], []
+    lanes, answers = [Scripted(Slow(1)), Scripted(Slow(1))], []
     execute(iter(orders(40)), lanes, parts=str.encode, record=answers.extend)
     for lane in lanes:
         lane.pool.shutdown()
@@ -106,7 +101,7 @@ def test_orders_are_drawn_only_when_there_is_room():
     def record(answers):
         raise KeyboardInterrupt
 
-    lane = Scripted(fine)
+    lane = Scripted(Script(fine))
     with pytest.raises(KeyboardInterrupt):
         execute(drawing(), [lane], parts=str.encode, record=record)
     assert len(drawn) == 2
@@ -119,7 +114,7 @@ def test_a_worker_is_told_what_it_does_not_know_and_nothing_else():
         return Reply(missing=missing, measures={} if missing else {"status": "found"})
 
     (lane,), answers = carried_out(script, count=3)
-    told = [order for order in lane.sent if order.parts]
+    told = [order for order in lane.pool.sent if order.parts]
     assert told[0].parts == {"planner": b"planner", "problem": b"problem"}
     assert len(answers) == 3
     assert len(told) <= 2  # those under way when it asked
@@ -165,7 +160,7 @@ def test_what_check_raises_ends_everything():
     def check():
         raise KeyboardInterrupt
 
-    lane = Scripted(fine)
+    lane = Scripted(Script(fine))
     with pytest.raises(KeyboardInterrupt):
         execute(iter(orders(5)), [lane], parts=str.encode, record=lambda answers: None, check=check)
     assert lane.stopped

@@ -1,11 +1,11 @@
 """Whatever is killed, and whenever: the study ends as if nothing had happened."""
 
-import os
 import random
 import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -13,11 +13,19 @@ import pytest
 import pathloom as pl
 from study.conftest import rows_of
 
-pytestmark = pytest.mark.skipif(not Path("/proc").is_dir(), reason="needs /proc to find the workers")
+psutil = pytest.importorskip("psutil", reason="finds the workers of a driver; of the dev extra")
 
 ASKED = ("ablate", "imga", "--swap", "selection=roulette", "--maps", "random-20:75:x3", "--runs", "6", "--budget",
          "evaluations=20000", "--corners", "allow", "--workers", "2", "--quiet")  # fmt: skip
 RUNS = 36
+LISTENING = """
+import _thread, os, threading
+from pathloom.cli import main
+
+threading.Thread(target=lambda: os.read(0, 1) and _thread.interrupt_main(), daemon=True).start()
+main()
+"""
+"""The command, which a sign on its input interrupts: on Windows, Ctrl-C would interrupt the tests as well."""
 
 
 @pytest.fixture(scope="module")
@@ -37,16 +45,13 @@ def begin(out: Path) -> subprocess.Popen[bytes]:
     )  # fmt: skip
 
 
-def workers_of(driver: int) -> list[int]:
+def workers_of(driver: int) -> list["psutil.Process"]:
     found = []
-    for process in Path("/proc").iterdir():
-        if process.name.isdigit():
-            try:
-                parent = int((process / "stat").read_text().rpartition(")")[2].split()[1])
-                if parent == driver and b"spawn_main" in (process / "cmdline").read_bytes():
-                    found.append(int(process.name))
-            except (OSError, ValueError):
-                pass  # it is gone
+    with suppress(psutil.Error):
+        for process in psutil.Process(driver).children(recursive=True):
+            with suppress(psutil.Error):  # it is gone
+                if "spawn_main" in " ".join(process.cmdline()):
+                    found.append(process)
     return found
 
 
@@ -66,10 +71,10 @@ def wait_for(what, seconds=60.0):
     return found
 
 
-def alive(pid: int) -> bool:
+def alive(process: "psutil.Process") -> bool:
     try:
-        return "Z" not in Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-    except OSError:
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
         return False
 
 
@@ -93,7 +98,7 @@ def test_workers_that_are_killed_lose_nothing(tmp_path, whole):
     driver = begin(out)
     for killed in range(2):
         wait_for(lambda killed=killed: done(out) > 2 * killed and len(workers_of(driver.pid)) == 2)
-        os.kill(random.Random(killed).choice(workers_of(driver.pid)), signal.SIGKILL)
+        random.Random(killed).choice(workers_of(driver.pid)).kill()
     assert driver.wait(timeout=120) == 0
     assert rows_of(out) == whole
 
@@ -101,12 +106,15 @@ def test_workers_that_are_killed_lose_nothing(tmp_path, whole):
 def test_an_interrupted_study_says_what_is_kept_and_ends_with_130(tmp_path, whole):
     out = tmp_path / "s.db"
     driver = subprocess.Popen(
-        [sys.executable, "-m", "pathloom", *ASKED[:-1], "--out", out], stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE, text=True,
+        [sys.executable, "-c", LISTENING, *ASKED[:-1], "--out", out], stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
     )  # fmt: skip
     wait_for(lambda: done(out))
     workers = workers_of(driver.pid)
-    driver.send_signal(signal.SIGINT)
+    if sys.platform == "win32":
+        driver.stdin.write("!")
+    else:
+        driver.send_signal(signal.SIGINT)
     _, said = driver.communicate(timeout=60)
     assert driver.returncode == 130
     kept = done(out)

@@ -2,6 +2,7 @@
 
 import html
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -16,12 +17,15 @@ import pytest
 import pathloom as pl
 from pathloom.study import Study
 from pathloom.study.report import report
+from pathloom.study.report.citing import STATISTICS
 
 NASTY = "<img src=x onerror=\"alert(1)\"> & 'quotes' {{ 7 * 7 }} $x_1$"
 VOID = {"meta", "link", "br", "wbr", "hr", "img", "input"}
-CHROMIUM = next((shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome")
-                 if shutil.which(name)), None)  # fmt: skip
-in_a_browser = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed here")
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+UNSEEN = (
+    "no Chromium is installed here, so that nobody looks whether the page fits wide and narrow windows, whether its "
+    "figures are shown in light and dark, and whether it asks for anything; on Debian: apt-get install chromium"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,8 +141,20 @@ def test_verdicts_rates_methods_failures_and_versions_stand_in_the_page(study, p
     assert "Success rates have 95 % Wilson intervals" in text
     assert "seeds 0 to 2" in text
     assert "@article{li2021imga" in text
+    assert "E. B. Wilson (1927), Probable Inference" in text
+    assert "@article{wilson1927" in text
     assert f"pathloom {study.versions[0]['pathloom']}" in text
     assert '[planner]\nuse = "imga/imga"' in "".join(read(page).text)
+
+
+def test_an_article_is_cited_with_initials_and_entered_in_tex():
+    vargha = STATISTICS["a12"].work
+    assert vargha.text == (
+        "A. Vargha, H. D. Delaney (2000), A Critique and Improvement of the CL Common Language Effect Size Statistics of "
+        "McGraw and Wong, Journal of Educational and Behavioral Statistics 25, 101-132"
+    )
+    assert vargha.bibtex.startswith("@article{vargha2000,\n  author  = {Vargha, Andr{\\'a}s and Delaney, Harold D.},\n")
+    assert all(article.work.bibtex.isascii() for article in STATISTICS.values())
 
 
 def test_the_same_study_makes_the_same_page(study, page):
@@ -210,13 +226,22 @@ FRAME = """<!doctype html><iframe src="{}" width="{}" height="900" style="border
 """A browser's window has a least width, a frame within it has none."""
 
 
-def probed(page: str, folder: Path, width: int, *, dark: bool) -> dict:
+@pytest.fixture(scope="module")
+def browser():
+    """A Chromium; where PATHLOOM_BROWSER is ``required``, tests fail without one."""
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        (pytest.fail if os.environ.get("PATHLOOM_BROWSER") == "required" else pytest.skip)(UNSEEN)
+    return found
+
+
+def probed(browser: str, page: str, folder: Path, width: int, *, dark: bool) -> dict:
     """Open a page in a browser, and return what it looks like there."""
     (folder / "page.html").write_text(page.replace("<head>", f"<head>{PROBE}", 1), encoding="utf-8")
     frame = folder / "frame.html"
     frame.write_text(FRAME.format("page.html", width), encoding="utf-8")
     done = subprocess.run(
-        [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+        [browser, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--enable-logging=stderr",
          f"--user-data-dir={folder / 'profile'}", f"--blink-settings=preferredColorScheme={0 if dark else 1}",
          "--window-size=1400,950", "--virtual-time-budget=4000", "--dump-dom", frame.as_uri()],
@@ -228,11 +253,10 @@ def probed(page: str, folder: Path, width: int, *, dark: bool) -> dict:
     return json.loads(html.unescape(text[1]))
 
 
-@in_a_browser
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 390])
-def test_a_browser_shows_all_of_it_and_asks_for_nothing(page, tmp_path, width, dark):
-    found = probed(page, tmp_path, width, dark=dark)
+def test_a_browser_shows_all_of_it_and_asks_for_nothing(browser, page, tmp_path, width, dark):
+    found = probed(browser, page, tmp_path, width, dark=dark)
     assert found["inner"] == width
     assert found["scroll"] <= width  # no part is wider than the page
     assert found["errors"] == found["requests"] == []

@@ -1,4 +1,4 @@
-"""What ``plan`` and ``pareto`` ask alike: their options, and the config, planner and problem that follow."""
+"""What commands ask alike: their options, and the config, planner and problem that follow."""
 
 import tomllib
 from collections.abc import Callable, Mapping
@@ -15,6 +15,11 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+CORNERS = click.option("--corners", metavar="POLICY", help="strict (default), no-squeeze or allow.")
+DARK = click.option("--dark", is_flag=True, help="Draw on a dark background.")
+JSON = click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
+QUIET = click.option("--quiet", is_flag=True, help="No progress, no messages.")
+
 PROBLEM = (
     click.option("--map", "map_", metavar="NAME|FILE", help="A registered or generated map, or a file."),
     click.option("--scenario", metavar="FILE", help="A Moving AI scenario: sets map, start and goal."),
@@ -22,7 +27,7 @@ PROBLEM = (
     click.option("--start", metavar="ROW,COL|CORNER", help="Where to start; default bottom-left."),
     click.option("--goal", metavar="ROW,COL|CORNER", help="Where to go; default top-right."),
     click.option("--world", is_flag=True, help="Start and goal are X,Y in metres."),
-    click.option("--corners", metavar="POLICY", help="strict (default), no-squeeze or allow."),
+    CORNERS,
     click.option(
         "--radius",
         type=float,
@@ -46,6 +51,15 @@ RUN = (
     click.option("--time-limit", type=float, metavar="SECONDS", help="Answer with the best so far after this time."),
 )
 """The run."""
+
+ANSWER = (
+    DARK,
+    click.option("--freeze", is_flag=True, help="Print the complete config instead of planning."),
+    click.option("--out", metavar="FILE", help="Write the JSON document."),
+    click.option("--json", "as_json", is_flag=True, help="Print the JSON document instead of tables and picture."),
+    QUIET,
+)
+"""What becomes of a plan or a front, beside what each of them draws and writes."""
 
 
 def options(*which: Callable[[F], F]) -> Callable[[F], F]:

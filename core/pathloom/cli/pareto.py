@@ -33,13 +33,9 @@ PLOTS = (".png", ".svg", ".pdf")
     "--prefer", metavar="NAME=WEIGHT,…|WEIGHTING", help="What matters, e.g. length=2,turns=1, or agacd/delphi-ratio."
 )
 @click.option("--reference", metavar="VALUE,…", help="Reference point of the hypervolume.")
-@click.option("--freeze", is_flag=True, help="Print the complete config instead of planning.")
 @click.option("--plot", metavar="FILE", help="Draw the front and its paths on the map: png, svg, pdf.")
 @click.option("--colour", metavar="NAME", help="The objective by which --plot colours the paths; the first one.")
-@click.option("--dark", is_flag=True, help="Draw on a dark background.")
-@click.option("--out", metavar="FILE", help="Write the JSON document.")
-@click.option("--json", "as_json", is_flag=True, help="Print the JSON document instead of tables and picture.")
-@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+@asking.options(*asking.ANSWER)
 @click.pass_context
 def command(ctx: click.Context, /, **options: Any) -> None:
     """Plan a front: trade-offs between two to five objectives.

@@ -22,13 +22,9 @@ PLOTS = (".png", ".svg", ".pdf", ".gif")
 @asking.options(*asking.PROBLEM, *asking.RUN)
 @click.option("--optimum", is_flag=True, help="Compute the exact optima and the gaps to them.")
 @click.option("--smooth", metavar="NAME", help="Also make a smooth curve of the path: b-spline or cubic-bezier.")
-@click.option("--freeze", is_flag=True, help="Print the complete config instead of planning.")
-@click.option("--plot", metavar="FILE", help="Draw map, path and convergence: png, svg, pdf; gif shows the evolution.")
-@click.option("--dark", is_flag=True, help="Draw on a dark background.")
-@click.option("--out", metavar="FILE", help="Write the JSON document.")
 @click.option("--export", metavar="FILE", help="Write the path: csv of cells and metres, json of a nav_msgs/Path.")
-@click.option("--json", "as_json", is_flag=True, help="Print the JSON document instead of table and picture.")
-@click.option("--quiet", is_flag=True, help="No progress, no messages.")
+@click.option("--plot", metavar="FILE", help="Draw map, path and convergence: png, svg, pdf; gif shows the evolution.")
+@asking.options(*asking.ANSWER)
 @click.pass_context
 def command(ctx: click.Context, /, **options: Any) -> None:
     """Plan one path.

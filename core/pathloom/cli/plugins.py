@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from pathloom.cli import Group
+from pathloom.cli import Group, asking
 from pathloom.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def command() -> None:
 
 @command.command("list")
 @click.option("--kind", help="Only components of one kind, e.g. selection.")
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
+@asking.JSON
 def list_(kind: str | None, as_json: bool) -> None:
     """List plugins and components, broken plugins with their cause."""
     from rich.table import Table
@@ -70,7 +70,7 @@ def list_(kind: str | None, as_json: bool) -> None:
 
 @command.command("show")
 @click.argument("name")
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON document.")
+@asking.JSON
 def show(name: str, as_json: bool) -> None:
     """Show a component: what it is, its source, and its parameters with defaults and ranges."""
     from pathloom.cli import console
@@ -176,21 +176,11 @@ def cite(config: str) -> None:
     from pathlib import Path
 
     from pathloom.config import read_config
-    from pathloom.kernel.component import members
+    from pathloom.kernel.citing import works_of
     from pathloom.kernel.compose import compose
-    from pathloom.kernel.planner import Planner
-    from pathloom.kernel.registry import default_registry
 
     planner = compose(read_config(config).planner if Path(config).suffix == ".toml" else config)
-    registry = default_registry()
-    used = [planner, *(part for _, part in members(planner)), *planner.terms.objectives()]
-    spaces = {registry.name_of(type(part)).partition("/")[0] for part in used}
-    written: list[str] = []
-    for entry in registry.all_entries(Planner):
-        bibtex = getattr(entry.component, "bibtex", "")
-        if bibtex and bibtex not in written and (entry.component is type(planner) or entry.source.namespace in spaces):
-            written.append(bibtex)
-    click.echo("\n".join(written), nl=False)
+    click.echo("\n".join(work.bibtex for work in works_of([planner]) if work.bibtex), nl=False)
 
 
 def _about(component: type) -> str:

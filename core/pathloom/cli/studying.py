@@ -23,7 +23,7 @@ MAPS = (
     click.option("--cases", metavar="0-9,20|all", default="all", help="Which lines of each scenario, from 0."),
     click.option("--start", metavar="ROW,COL|CORNER", help="Where to start on every map; default bottom-left."),
     click.option("--goal", metavar="ROW,COL|CORNER", help="Where to go on every map; default top-right."),
-    click.option("--corners", metavar="POLICY", help="strict (default), no-squeeze or allow."),
+    asking.CORNERS,
     click.option("--radius", type=float, help="Radius of the robot, in metres where a map has a resolution."),
 )
 """The problems."""
@@ -44,8 +44,8 @@ WORKERS = (
     click.option("--workers", type=int, metavar="N", help="Processes; default one for each core."),
     click.option("--dask", metavar="ADDRESS", help="A running Dask cluster instead, e.g. tcp://host:8786."),
     click.option("--mixed", is_flag=True, help="Go on with a study that began with other versions."),
-    click.option("--json", "as_json", is_flag=True, help="Print a JSON document."),
-    click.option("--quiet", is_flag=True, help="No progress, no messages."),
+    asking.JSON,
+    asking.QUIET,
 )
 """Who does the work."""
 

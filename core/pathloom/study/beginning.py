@@ -5,17 +5,13 @@ from pathlib import Path
 from typing import Any
 
 from pathloom.config import ProblemSpec
-from pathloom.grid import OccupancyGrid
 from pathloom.kernel.planner import Planner
-from pathloom.paths.problem import PathProblem
 from pathloom.study.budget import Budget
 from pathloom.study.carrying_out import carry_out
 from pathloom.study.design import Design, ablation, comparison
-from pathloom.study.instances import instances_of
+from pathloom.study.instances import Maps, instances_of
 from pathloom.study.session import Watch, Workers
 from pathloom.study.study import Study
-
-Maps = str | Path | OccupancyGrid | PathProblem | Iterable[str | Path | OccupancyGrid | PathProblem]
 
 
 def ablate(
@@ -86,7 +82,7 @@ def ablate(
         base, swap=swap, without=without, factorial=factorial, add_one_in=add_one_in, budget=measure
     )
     spec = ProblemSpec(start=start, goal=goal, corners=corners, radius=radius)
-    places = instances_of(_listed(maps), scenarios=scenarios, cases=cases, spec=spec)
+    places = instances_of(maps, scenarios=scenarios, cases=cases, spec=spec)
     design = Design("ablate", variants, places, runs, seed, measure, time_limit, notes)
     return carry_out(design, out, workers=Workers(workers, dask), watch=watch)
 
@@ -118,10 +114,6 @@ def compare(
     """
     variants = comparison(planners)
     spec = ProblemSpec(start=start, goal=goal, corners=corners, radius=radius)
-    places = instances_of(_listed(maps), scenarios=scenarios, cases=cases, spec=spec)
+    places = instances_of(maps, scenarios=scenarios, cases=cases, spec=spec)
     design = Design("compare", variants, places, runs, seed, Budget.parse(budget), time_limit)
     return carry_out(design, out, workers=Workers(workers, dask), watch=watch)
-
-
-def _listed(maps: Maps) -> Iterable[Any]:
-    return [maps] if isinstance(maps, (str, Path, OccupancyGrid, PathProblem)) else maps

@@ -12,6 +12,8 @@ from pathloom.grid import OccupancyGrid, read_scenario
 from pathloom.paths.maps import load_map, names_of
 from pathloom.paths.problem import PathProblem
 
+Maps = str | Path | OccupancyGrid | PathProblem | Iterable[str | Path | OccupancyGrid | PathProblem]
+"""One map, or several."""
 MOST = 100_000
 """Instances beyond which a list of maps is refused."""
 
@@ -36,7 +38,7 @@ class Instance:
 
 
 def instances_of(
-    maps: Iterable[str | Path | OccupancyGrid | PathProblem] = (),
+    maps: Maps = (),
     *,
     scenarios: Sequence[str | Path] = (),
     cases: str | Sequence[int] = "all",

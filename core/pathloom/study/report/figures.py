@@ -9,7 +9,7 @@ import numpy as np
 from markupsafe import Markup
 
 from pathloom.draw import study as draw
-from pathloom.draw.study import Curve, Effect
+from pathloom.draw.study import Curve, Effect, Sheet
 from pathloom.kernel.evaluation import Floats
 from pathloom.study.report.inlining import inline
 from pathloom.study.row import Row
@@ -28,8 +28,8 @@ from pathloom.study.study import Study
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-WIDTH = 3.7
-"""Inches."""
+SHEET = Sheet(width=3.7)
+"""A page has its own headings, and is light or dark as its reader likes."""
 MOST_HISTORIES = 4000
 """Runs whose history is read; of more, as many are taken, evenly from all variants, maps and seeds."""
 HIGHEST = 0.5
@@ -91,7 +91,7 @@ class _Figures:
         how = "pairwise tests with Holm's correction" if by_pairs else "Nemenyi's critical difference"
         figure = draw.critical_difference_figure(
             ranks={name: ranking.ranks[name] for name in self.summary.variants if name in ranking.ranks},
-            groups=groups, critical=None if by_pairs else ranking.critical, width=WIDTH,
+            groups=groups, critical=None if by_pairs else ranking.critical, sheet=SHEET,
         )  # fmt: skip
         yield self.plot(
             "ranks",
@@ -115,7 +115,7 @@ class _Figures:
                 elif row.status != "unreachable":
                     missing[row.variant] += 1
         figure = draw.spread_figure(
-            values, missing=missing, x_label=self.metric.label, percent=self.metric.unit == "%", width=WIDTH
+            values, missing=missing, x_label=self.metric.label, percent=self.metric.unit == "%", sheet=SHEET
         )
         yield self.plot(
             "spread",
@@ -164,7 +164,7 @@ class _Figures:
             mine = [(e, np.asarray(lengths) / best - 1.0) for v, best, e, lengths in found if v == variant]
             it = band(mine, grid)
             curves[variant] = Curve(it.evaluations, it.median, it.low, it.high)
-        figure = draw.bands_figure(curves, y_label="gap to the optimum", percent=True, width=WIDTH)
+        figure = draw.bands_figure(curves, y_label="gap to the optimum", percent=True, sheet=SHEET)
         axes = figure.axes[0]
         cut = axes.get_ylim()[1] > HIGHEST
         above = f" Gaps above {100 * HIGHEST:g} % are cut off." if cut else ""
@@ -185,7 +185,7 @@ class _Figures:
         reached = reached_by_variant(found)
         curves = {v: _curve(ecdf(reached[v])) for v in self.shown if v in reached}
         spent = [row.evaluations for row in self.rows if row.evaluations]
-        figure = draw.ecdf_figure(curves, budget=float(max(spent)) if spent else None, width=WIDTH)
+        figure = draw.ecdf_figure(curves, budget=float(max(spent)) if spent else None, sheet=SHEET)
         return self.plot(
             "targets",
             "Targets reached (ECDF)",
@@ -204,7 +204,7 @@ class _Figures:
         if not len(finite) or (finite <= 0.0).any():
             return
         curves = {name: _curve(steps) for name, steps in performance_profile(self.shown, costs).items()}
-        figure = draw.profile_figure(curves, y_label="share of maps", width=WIDTH)
+        figure = draw.profile_figure(curves, y_label="share of maps", sheet=SHEET)
         yield self.plot(
             "profile",
             f"Performance profile: {metric.label}",
@@ -246,7 +246,7 @@ class _Figures:
         if not effects:
             return
         every = [v for found in levels.values() for values in found.values() for v in values]
-        figure = draw.main_effects_figure(effects, mean=float(np.mean(every)), y_label=self.metric.head, width=WIDTH)
+        figure = draw.main_effects_figure(effects, mean=float(np.mean(every)), y_label=self.metric.head, sheet=SHEET)
         yield self.plot(
             "effects",
             f"Main effects: {self.metric.label}",

@@ -4,7 +4,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from pathloom.errors import PathloomError
-from pathloom.study.report.citing import Work, key_of, planners, statistics
+from pathloom.kernel.citing import Work, works_of
+from pathloom.study.report.citing import statistics
 from pathloom.study.report.figures import own
 from pathloom.study.statistics.summary import Summary
 from pathloom.study.study import Study
@@ -73,7 +74,7 @@ def methods(study: Study, summary: Summary) -> Methods:
             built.append(study.planner(name))
         except PathloomError:  # a plugin is not installed here; the study can be read all the same
             absent.append(name)
-    used = planners(built)
+    used = works_of(built)
     tools = list(statistics(summary))
     works = [*used, *(work for _, work in tools)]
     cited = {name: works.index(work) + 1 for name, work in tools}
@@ -172,7 +173,7 @@ class _Telling:
 
 def entries(works: Sequence[Work]) -> str:
     """Return the BibTeX of works."""
-    return "\n".join(work.bibtex for work in works if key_of(work))
+    return "\n".join(work.bibtex for work in works if work.key)
 
 
 def _count(number: int, what: str) -> str:

@@ -9,16 +9,13 @@ import numpy as np
 
 from pathloom.config import ProblemSpec
 from pathloom.errors import ConfigError
-from pathloom.grid import OccupancyGrid
 from pathloom.kernel.compose import freeze
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import default_registry
-from pathloom.paths.problem import PathProblem
 from pathloom.study import Study, Workers, carry_out
-from pathloom.study.beginning import Maps
 from pathloom.study.budget import Budget
 from pathloom.study.design import Design, Variant
-from pathloom.study.instances import Instance, instances_of
+from pathloom.study.instances import Instance, Maps, instances_of
 from pathloom.study.statistics.metrics import SUCCESS, metric
 from pathloom.study.statistics.runs import Runs
 from pathloom.study.statistics.summary import summary
@@ -90,8 +87,7 @@ def tune(
         If anything asked for cannot be used; nothing is run then.
     """
     spec = ProblemSpec(start=start, goal=goal, corners=corners, radius=radius)
-    listed = [maps] if isinstance(maps, (str, Path, OccupancyGrid, PathProblem)) else maps
-    places = instances_of(listed, scenarios=scenarios, cases=cases, spec=spec)
+    places = instances_of(maps, scenarios=scenarios, cases=cases, spec=spec)
     return tuned(
         experiment(base, factors, array), places, by=by, measure=measure, runs=runs, confirm=confirm, seed=seed,
         budget=Budget.parse(budget), time_limit=time_limit, out=out,

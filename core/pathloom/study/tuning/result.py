@@ -58,19 +58,18 @@ class Tuning:
     def plot(self, file: FilePath | None = None, *, dark: bool = False) -> "Figure":
         """Draw the main effects, and save them where a file is named."""
         from pathloom.draw.saving import save
-        from pathloom.draw.study import Effect, main_effects_figure
+        from pathloom.draw.study import Effect, Sheet, main_effects_figure
 
         scale = 100.0 if self.response.metric.unit == "%" else 1.0
         found = zip(self.experiment.factors, self.model.levels.means, self.model.levels.errors, strict=True)
         effects = [Effect(f.path, [str(v) for v in f.values], m * scale, e * scale) for f, m, e in found]
-        figure = main_effects_figure(
-            effects,
-            mean=self.model.levels.mean * scale,
-            y_label=self.response.metric.head,
+        sheet = Sheet(
             title=f"Main effects on {self.base}",
             caption=f"{self.experiment.array}, {len(self.settings)} settings; bars are standard errors",
             dark=dark,
         )
+        mean = self.model.levels.mean * scale
+        figure = main_effects_figure(effects, mean=mean, y_label=self.response.metric.head, sheet=sheet)
         if file is not None:
             save(figure, file)
         return figure
