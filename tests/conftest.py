@@ -1,6 +1,8 @@
 """Shared by all tests: one kernel cache, one hypothesis profile, and where the data are."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -19,10 +21,21 @@ def data() -> Path:
     return Path(folder)
 
 
-@pytest.fixture(scope="session", autouse=True)
-def kernels() -> None:
-    """Compile whatever is not in the cache yet, once for all tests, so that no command has to say that it does."""
-    from pathloom import compiled
+LOAD = """
+import sys
+from pathloom import compiled
 
-    for family in compiled.FAMILIES:
-        getattr(compiled, family)
+for family in compiled.FAMILIES[:: int(sys.argv[1])]:
+    getattr(compiled, family)
+"""
+
+
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile whatever is not in the cache yet, before any test, so that no command has to say that it does.
+
+    Two processes begin at either end, and each takes what the other has done from the cache.
+    """
+    if not hasattr(session.config, "workerinput") and not session.config.option.collectonly:
+        loading = [subprocess.Popen([sys.executable, "-c", LOAD, way]) for way in ("1", "-1")]
+        for process in loading:
+            process.wait()

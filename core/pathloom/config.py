@@ -20,7 +20,7 @@ from pathloom.paths.curves import Smoother
 from pathloom.paths.maps import SUFFIXES, load_map
 from pathloom.paths.problem import CORNER_NAMES, PathProblem
 
-DEFAULT_PLANNER = "loom"
+DEFAULT_PLANNER = "loom/loom"
 DEFAULT_MAP = "blocks-30:25%"
 """The map that is planned on when nobody names one."""
 

@@ -1,6 +1,6 @@
 """AGACD, IMAGA and IGA beside the same in plain Python, and beside the times that their papers print.
 
-`pytest tests/benchmarks --benchmark-enable` measures them. No test asserts a time, only ratios measured in one run.
+`pytest tests/benchmarks -n 0 --benchmark-enable` measures them. No test asserts a time, only ratios measured in one run.
 """
 
 import time

@@ -1,6 +1,6 @@
 """Ours beside general libraries for evolution, as ratios of processor time measured in one run.
 
-`pytest tests/benchmarks/test_peer_speed.py --benchmark-enable`; `python -m pathloom.bench --target 1` prints the times.
+`pytest tests/benchmarks/test_peer_speed.py -n 0 --benchmark-enable`; `python -m pathloom.bench --target 1` prints the times.
 """
 
 import time
@@ -79,7 +79,7 @@ def test_a_generation_is_at_least_twenty_times_as_fast_as_with_the_same_operator
 @pytest.mark.parametrize("name", TIMES)
 def test_a_path_within_one_percent_takes_a_fraction_of_a_librarys_time(benchmark, name, map_):
     if not benchmark.enabled:
-        pytest.skip("takes seconds: --benchmark-enable")
+        pytest.skip("takes seconds: -n 0 --benchmark-enable")
     if PEERS[name].version() is None:
         pytest.skip(f"{PEERS[name].distribution} is not installed")
     problem = problem_on(map_, "allow")

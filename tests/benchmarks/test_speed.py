@@ -1,4 +1,4 @@
-"""Speed as ratios measured in one run: `pytest tests/benchmarks --benchmark-enable`. No test asserts a time."""
+"""Speed as ratios measured in one run: `pytest tests/benchmarks -n 0 --benchmark-enable`. No test asserts a time."""
 
 import time
 

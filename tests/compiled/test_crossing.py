@@ -72,7 +72,7 @@ def crossed(problem: PathProblem, paths: list[Cells], points: int, beside: bool,
 
 
 @given(drawn=crossings())
-@examples(150)
+@examples(100)
 def test_the_two_shortest_different_children_are_kept(drawn):
     problem, paths, beside, words = drawn
     steps = neighbours(problem.context.occupied, problem.corners) if beside else None
@@ -137,7 +137,7 @@ def test_many_pairs_at_once_give_what_one_at_a_time_gives():
 
 
 @given(problem=naive.problems(), data=st.data())
-@examples(150)
+@examples(100)
 def test_detours_are_cut_out_as_in_the_twin(problem, data):
     it = problem.context
     free = st.sampled_from(naive.free_cells(it.occupied))

@@ -73,13 +73,13 @@ def random_problems(count):
 
 def test_no_curve_ever_collides():
     touching = 0
-    for problem, path in random_problems(300):
+    for problem, path in random_problems(100):
         for smoother in SMOOTHERS[::2]:
             curve = smoother.smooth(path, problem)
             assert collision(curve, problem) is None
             assert not curve.fallback
             touching += curve.min_clearance == 0.0
-    assert touching > 50  # among them curves that graze corners where they may
+    assert touching > 15  # among them curves that graze corners where they may
 
 
 @pytest.mark.parametrize("smoother", [BSpline(halvings=0), CubicBezier(halvings=0), BSpline(degree=5, halvings=1)])

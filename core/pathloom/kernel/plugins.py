@@ -44,6 +44,8 @@ class Source:
     version: str = ""
     ours: bool = False
     """Whether it is part of pathloom's own distribution."""
+    module: str = ""
+    """The module that is loaded, where that is known before it is."""
 
     def __str__(self) -> str:
         by = f" ({self.distribution} {self.version})" if self.distribution else ""
@@ -55,7 +57,7 @@ def installed() -> Iterator[Source]:
     points = importlib.metadata.entry_points(group=GROUP)
     for point in sorted(points, key=lambda p: (p.name, p.dist.name if p.dist else "")):
         name, version = (point.dist.name, point.dist.version) if point.dist else ("", "")
-        yield Source(point.name, point.load, name, version, ours=name == "pathloom")
+        yield Source(point.name, point.load, name, version, ours=name == "pathloom", module=point.module)
 
 
 def components_of(source: Source) -> list[type[Component]]:

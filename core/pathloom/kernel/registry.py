@@ -7,6 +7,7 @@ neither change what a name means nor cost anything.
 """
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from typing import TypeVar
@@ -154,12 +155,18 @@ class Registry:
     def name_of(self, component: type[Component]) -> str:
         """Return the full name of a component class; for one that no plugin registered, its Python name."""
         if component not in self._names:
-            for namespace in self.namespaces:
-                if self._sources[namespace].ours:
+            for namespace in self._likely(component):
+                with suppress(PluginError):  # a broken plugin has brought nothing
                     self.entries(namespace)
                 if component in self._names:
                     break
         return self._names.get(component, f"{component.__module__}.{component.__qualname__}")
+
+    def _likely(self, component: type[Component]) -> list[str]:
+        """Return the plugins that may have brought a component: first its own package's, of whomever, then ours."""
+        package = component.__module__.partition(".")[0]
+        own = [n for n in self.namespaces if self._sources[n].module.partition(".")[0] == package]
+        return own + [n for n in self.namespaces if self._sources[n].ours and n not in own]
 
 
 @cache

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom.errors import MapError, PathloomError, PluginError
+from pathloom.errors import ConfigError, MapError, PluginError
 from pathloom.files import LARGEST_MAP
 from pathloom.grid import OccupancyGrid, labels, read_map
 from pathloom.kernel.component import Component, Count, Whole
@@ -24,6 +24,8 @@ DRAWS = 1000
 """Sub-seeds after which a family is asked for no other map."""
 MOST_MAPS = 10_000
 """Maps that one name may stand for."""
+OWN = "maps"
+"""The namespace of the maps that come with us."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,12 +125,7 @@ def map_of(name: str, *, registry: Registry | None = None) -> Map:
                 more = "one map; :xCOUNT stands for several" if re.fullmatch(r"x\d+", part) else "OBSTACLES or sSEED"
                 raise MapError(f"{name}: found {part!r}, allowed {more}, as in random-20:75:s3 or blocks-50:20%")
         return family(size=int(generated["size"]), obstacles=obstacles, seed=seed)
-    try:
-        component = registry.find(Map, name)
-    except PluginError:
-        raise
-    except PathloomError:
-        component = None
+    component = _find(name, registry)
     if component is None or issubclass(component, MapFamily):
         entries = registry.all_entries(Map)
         names = [e.component.name + ("-20" if issubclass(e.component, MapFamily) else "") for e in entries]
@@ -162,10 +159,22 @@ def names_of(name: str) -> tuple[str, ...]:
 
 def _family(name: str, registry: Registry) -> type[MapFamily] | None:
     try:
-        component = registry.find(Map, name)
-    except PathloomError:
+        component = _find(name, registry)
+    except PluginError:
         return None
-    return component if issubclass(component, MapFamily) else None
+    return component if component is not None and issubclass(component, MapFamily) else None
+
+
+def _find(name: str, registry: Registry) -> type[Map] | None:
+    """Return the map of a name, if there is one, and load no other plugin for a map of our own."""
+    if "/" not in name and OWN in registry.namespaces and registry.source(OWN).ours:
+        found = (e.component for e in registry.entries(OWN) if e.component.name == name)
+        if (component := next(found, None)) is not None and issubclass(component, Map):
+            return component
+    try:
+        return registry.find(Map, name)
+    except ConfigError:
+        return None
 
 
 def load_map(
