@@ -15,10 +15,9 @@ from pathloom.compiled import jit
 
 @pytest.fixture(scope="module")
 def plain() -> dict[str, list]:
-    """Return the results of a process in which numba compiles nothing, measured if this one is."""
-    measured = ["-m", "coverage", "run"] if "COVERAGE_RUN" in os.environ else []
+    """Return the results of a process in which numba compiles nothing."""
     done = subprocess.run(
-        [sys.executable, "-W", "ignore:overflow:RuntimeWarning", *measured, every_kernel.__file__],
+        [sys.executable, "-W", "ignore:overflow:RuntimeWarning", every_kernel.__file__],
         env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
         cwd=Path(__file__).parents[2],
         capture_output=True,
