@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathloom.fronts import ParetoResult
     from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
     from pathloom.kernel.archive import Archive
-    from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
+    from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Unit, Whole
     from pathloom.kernel.constraint import Constraint
     from pathloom.kernel.counting import count
     from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     from pathloom.paths.vectors.decoding import Decoder
     from pathloom.paths.vectors.planner import VectorPlanner, VectorState
     from pathloom.paths.vectors.swarm import Swarm
-    from pathloom.planning import compose, freeze, iterate, plan
+    from pathloom.planning import compose, freeze, iterate, load_state, plan
     from pathloom.result import Result
     from pathloom.study import Study, ablate, compare
     from pathloom.study.tuning.experiment import tune
@@ -66,7 +66,7 @@ _HOME = {
     "fronts": ("ParetoResult",),
     "grid": ("OccupancyGrid", "full_cell_cover", "write_map"),
     "kernel.archive": ("Archive",),
-    "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
+    "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Unit", "Whole"),
     "kernel.counting": ("count",),
     "kernel.constraint": ("Constraint",),
     "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),
@@ -97,7 +97,7 @@ _HOME = {
     "paths.problem": ("PathProblem",),
     "paths.vectors.swarm": ("Swarm",),
     "paths.vectors.planner": ("VectorPlanner", "VectorState"),
-    "planning": ("compose", "freeze", "iterate", "plan"),
+    "planning": ("compose", "freeze", "iterate", "load_state", "plan"),
     "result": ("Result",),
     "study": ("Study", "ablate", "compare"),
     "study.tuning.experiment": ("tune",),
@@ -178,6 +178,7 @@ __all__ = [
     "Termination",
     "Terms",
     "Tuning",
+    "Unit",
     "VectorPlanner",
     "VectorState",
     "Weighting",
@@ -197,6 +198,7 @@ __all__ = [
     "hookimpl",
     "iterate",
     "load_map",
+    "load_state",
     "octile_path",
     "pareto",
     "plan",

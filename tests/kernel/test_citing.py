@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import pathloom as pl
 from pathloom.kernel.citing import Work, works_of
 from pathloom.kernel.compose import compose
+from pathloom.paths.objectives import Length
+from pathloom.paths.tree_seeding import PerturbedTrees
 
 
 def keys(*planners):
@@ -29,7 +31,7 @@ def test_what_has_no_reference_is_not_cited():
     class Mine(pl.Evolution):
         """Nobody has published it."""
 
-    assert works_of([Mine(termination=(pl.compose("imga").termination[0],))]) == []
+    assert works_of([Mine(sampling=PerturbedTrees(), objectives=pl.Terms([pl.Term("length", Length())]))]) == []
 
 
 def test_a_key_stands_in_its_entry():

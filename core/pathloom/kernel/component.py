@@ -34,6 +34,12 @@ Positive = Annotated[float, msgspec.Meta(gt=0.0)]
 """A real number above zero."""
 
 
+class Unit(str):
+    """What a number is measured in: ``Annotated[Positive, Unit("cells")]``."""
+
+    __slots__ = ()
+
+
 def kebab(name: str) -> str:
     """Turn a class name into a component's name: ``MedianInsertion`` into ``median-insertion``."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "-", name).lower()
@@ -133,6 +139,15 @@ class Parameter:
     def own_type(self) -> Any:
         """The type that the field takes if that is one which checks its values itself: a table of objectives."""
         return next((h for h in _alternatives(self.hint) if hasattr(h, "__checked__")), None)
+
+    @property
+    def unit(self) -> str:
+        """What the number is measured in; empty where it is a mere number, or none."""
+        for hint in _alternatives(self.hint):
+            found = [str(m) for m in getattr(hint, "__metadata__", ()) if isinstance(m, Unit)]
+            if found:
+                return found[-1]
+        return ""
 
     @property
     def allowed(self) -> str:

@@ -1,8 +1,8 @@
 """Planner: a method that solves a problem, step by step."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +71,11 @@ class Planner(Component, ABC):
     def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
         """Return the objective values of one individual by label, and its fitness where there is one."""
         return {}, None
+
+    @property
+    def unwatched(self) -> Self:
+        """The planner without observers: all that its results depend on."""
+        return replace(self, observers=()) if self.observers else self
 
     def done(self, state: State) -> bool:
         """Say whether the run is over."""
