@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from pathloom.fronts import ParetoResult
     from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
     from pathloom.kernel.archive import Archive
-    from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Unit, Whole
+    from pathloom.kernel.component import Component, Count, Distance, NonNegative, Positive, Share, Unit, Whole
     from pathloom.kernel.constraint import Constraint
     from pathloom.kernel.counting import count
     from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
@@ -66,7 +66,7 @@ _HOME = {
     "fronts": ("ParetoResult",),
     "grid": ("OccupancyGrid", "full_cell_cover", "write_map"),
     "kernel.archive": ("Archive",),
-    "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Unit", "Whole"),
+    "kernel.component": ("Component", "Count", "Distance", "NonNegative", "Positive", "Share", "Unit", "Whole"),
     "kernel.counting": ("count",),
     "kernel.constraint": ("Constraint",),
     "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),
@@ -124,6 +124,7 @@ __all__ = [
     "Deadlock",
     "Decoder",
     "Deme",
+    "Distance",
     "Evolution",
     "Fidelity",
     "Finding",

@@ -6,12 +6,17 @@ remembered between calls, so a component can be compared, hashed, pickled,
 frozen into a config and rebuilt from it.
 """
 
+import ast
 import dataclasses
+import inspect
 import math
 import re
+import sys
 import types
 import typing
 from collections.abc import Iterator, Mapping
+from functools import cache
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Union
 
 import msgspec
@@ -19,6 +24,13 @@ import numpy as np
 
 from pathloom.errors import ConfigError
 from pathloom.naming import a
+
+
+class Unit(str):
+    """What a number is measured in: ``Annotated[Positive, Unit("cells")]``."""
+
+    __slots__ = ()
+
 
 Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 """A probability or a fraction."""
@@ -32,12 +44,8 @@ NonNegative = Annotated[float, msgspec.Meta(ge=0.0)]
 """A real number, zero or more."""
 Positive = Annotated[float, msgspec.Meta(gt=0.0)]
 """A real number above zero."""
-
-
-class Unit(str):
-    """What a number is measured in: ``Annotated[Positive, Unit("cells")]``."""
-
-    __slots__ = ()
+Distance = Annotated[float, msgspec.Meta(gt=0.0), Unit("cells")]
+"""A distance above zero, in cells."""
 
 
 def kebab(name: str) -> str:
@@ -59,6 +67,10 @@ class Component:
     """The component's name within its plugin."""
     source: ClassVar[str] = ""
     """Where it comes from: author, year, section or equation."""
+    reference: ClassVar[str] = ""
+    """The publication that describes it: authors, year, title, DOI. Left empty by a part of its plugin's one paper."""
+    bibtex: ClassVar[str] = ""
+    """The same as a BibTeX entry."""
     works_on: ClassVar[str] = ""
     """Name of the representation that it needs; empty: any."""
     needs: ClassVar[frozenset[str]] = frozenset()
@@ -208,6 +220,45 @@ def members(component: Component) -> Iterator[tuple[str, Component]]:
         for one in value if isinstance(value, tuple) else (value,):
             if isinstance(one, Component):
                 yield parameter.name, one
+
+
+def meanings(component: type) -> dict[str, str]:
+    """Return the docstrings that stand below the fields of a class and its bases, each as one line."""
+    docs: dict[str, str] = {}
+    for base in reversed(component.__mro__):
+        if dataclasses.is_dataclass(base):
+            docs |= _documented(base.__module__).get(base.__qualname__, {})
+    return docs
+
+
+@cache
+def _documented(module: str) -> dict[str, dict[str, str]]:
+    """Return the docstrings of the fields of all classes of a module, by class; empty without its source."""
+    try:
+        tree = ast.parse(inspect.getsource(sys.modules[module]))
+    except (KeyError, OSError, TypeError, SyntaxError):
+        return {}
+    found: dict[str, dict[str, str]] = {}
+    pending: list[tuple[str, ast.AST]] = [("", tree)]
+    while pending:
+        prefix, node = pending.pop()
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.ClassDef):
+                found[prefix + child.name] = _documented_in(child.body)
+                pending.append((f"{prefix}{child.name}.", child))
+            elif isinstance(child, (ast.FunctionDef, ast.If)):
+                inner = f"{prefix}{child.name}.<locals>." if isinstance(child, ast.FunctionDef) else prefix
+                pending.append((inner, child))
+    return found
+
+
+def _documented_in(body: list[ast.stmt]) -> dict[str, str]:
+    return {
+        statement.target.id: " ".join(str(text.value.value).split())
+        for statement, text in pairwise(body)
+        if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
+        if isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
+    }
 
 
 def _is_kind(hint: Any) -> bool:

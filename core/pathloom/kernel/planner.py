@@ -34,10 +34,6 @@ class Planner(Component, ABC):
     """A method. It keeps nothing between calls: all that it has reached is in the state."""
 
     kind: ClassVar[str] = "planner"
-    reference: ClassVar[str] = ""
-    """The publication that describes it: authors, year, title, DOI."""
-    bibtex: ClassVar[str] = ""
-    """The same as a BibTeX entry."""
     fidelity: ClassVar[Fidelity] = "standard"
     """``faithful`` to its paper, the ``standard`` form known from the field, or ``reconstructed`` from hints."""
     assumptions: ClassVar[tuple[str, ...]] = ()
