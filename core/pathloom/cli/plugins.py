@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pathloom.cli import Group, asking
+from pathloom.cli.plugins_check import check
 from pathloom.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 @click.group("plugins", cls=Group)
 def command() -> None:
     """List and show plugins and their components."""
+
+
+command.add_command(check)
 
 
 @command.command("list")

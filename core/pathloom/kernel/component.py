@@ -85,6 +85,8 @@ class Component:
     They stay when another operator is put into the slot, so that a study which
     swaps one operator swaps nothing else.
     """
+    example: ClassVar[Mapping[str, Any]] = {}
+    """Values of parameters, as in a config, with which the contract kit tries a component that has no defaults."""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -131,12 +133,12 @@ class Parameter:
     @property
     def optional(self) -> bool:
         """Whether ``None`` is allowed."""
-        return type(None) in _alternatives(self.hint)
+        return type(None) in alternatives(self.hint)
 
     @property
     def slot(self) -> type[Component] | None:
         """The kind that the field takes, if it takes one component."""
-        return next((h for h in _alternatives(self.hint) if _is_kind(h)), None)
+        return next((h for h in alternatives(self.hint) if _is_kind(h)), None)
 
     @property
     def slots(self) -> type[Component] | None:
@@ -150,7 +152,7 @@ class Parameter:
     @property
     def own_type(self) -> Any:
         """The type that the field takes if that is one which checks its values itself: a table of objectives."""
-        return next((h for h in _alternatives(self.hint) if hasattr(h, "__checked__")), None)
+        return next((h for h in alternatives(self.hint) if hasattr(h, "__checked__")), None)
 
     @property
     def unit(self) -> str:
@@ -265,7 +267,8 @@ def _is_kind(hint: Any) -> bool:
     return isinstance(hint, type) and issubclass(hint, Component)
 
 
-def _alternatives(hint: Any) -> tuple[Any, ...]:
+def alternatives(hint: Any) -> tuple[Any, ...]:
+    """Return the types of which a value may be any."""
     if typing.get_origin(hint) in (Union, types.UnionType):
         return typing.get_args(hint)
     return (hint,)
@@ -276,7 +279,7 @@ _WORDS = {float: "a number", int: "an integer", bool: "true or false", str: "a t
 
 def describe(hint: Any) -> str:
     """Say in words which values a type allows."""
-    many = _alternatives(hint)
+    many = alternatives(hint)
     if len(many) > 1:
         return " or ".join(describe(one) for one in many)
     origin, inner = typing.get_origin(hint), typing.get_args(hint)
