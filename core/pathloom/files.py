@@ -176,12 +176,12 @@ def appending(path: FilePath) -> Iterator[Callable[[str], None]]:
     Raises
     ------
     MapError
-        If the folder is missing or not writable, or `path` is a folder or a device.
+        If the folder is missing or not writable, or `path` is a folder.
     """
     target = _nameable(path)
     try:
-        if target.exists() and not target.is_file():
-            raise refusal(path, "", "a folder or a device", "a file to write")
+        if target.is_dir():
+            raise refusal(path, "", "a folder", "a file to write")
         stream = target.open("w", encoding="utf-8", newline="\n")
     except FileNotFoundError as error:
         raise refusal(path, "", "no such folder", "a file in an existing folder") from error

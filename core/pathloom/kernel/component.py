@@ -157,7 +157,7 @@ class Parameter:
     @property
     def unit(self) -> str:
         """What the number is measured in; empty where it is a mere number, or none."""
-        for hint in _alternatives(self.hint):
+        for hint in alternatives(self.hint):
             found = [str(m) for m in getattr(hint, "__metadata__", ()) if isinstance(m, Unit)]
             if found:
                 return found[-1]
