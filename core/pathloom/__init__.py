@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pathloom import compiled as compiled
     from pathloom.claims import Bench, Claim, Finding
+    from pathloom.deprecation import PathloomDeprecationWarning, Renamed, deprecated
     from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
     from pathloom.exact import additive_optimum, additive_path, any_angle_path, exact_front, octile_path, validate
     from pathloom.fronts import ParetoResult
@@ -61,6 +62,7 @@ if TYPE_CHECKING:
 
 _HOME = {
     "claims": ("Bench", "Claim", "Finding"),
+    "deprecation": ("PathloomDeprecationWarning", "Renamed", "deprecated"),
     "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
     "exact": ("additive_optimum", "additive_path", "any_angle_path", "exact_front", "octile_path", "validate"),
     "fronts": ("ParetoResult",),
@@ -103,6 +105,8 @@ _HOME = {
     "study.tuning.experiment": ("tune",),
     "study.tuning.result": ("Tuning",),
 }  # fmt: skip
+_RENAMED: dict[str, tuple[str, str]] = {}
+"""Names of this module that are no more: what took their place, and the version that made it so."""
 _FROM = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
@@ -154,6 +158,7 @@ __all__ = [
     "PathProblem",
     "PathRepair",
     "PathSampling",
+    "PathloomDeprecationWarning",
     "PathloomError",
     "PheromoneUpdate",
     "Planner",
@@ -164,6 +169,7 @@ __all__ = [
     "Probability",
     "Problem",
     "ProblemError",
+    "Renamed",
     "Repair",
     "Representation",
     "Result",
@@ -193,6 +199,7 @@ __all__ = [
     "compiled",
     "compose",
     "count",
+    "deprecated",
     "exact_front",
     "freeze",
     "full_cell_cover",
@@ -218,6 +225,12 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version
 
         value = version("pathloom")
+    elif name in _RENAMED:
+        from pathloom.deprecation import warn
+
+        new, since = _RENAMED[name]
+        warn(f"pathloom.{name}", since, f"pathloom.{new}", depth=3)
+        return getattr(importlib.import_module("pathloom"), new)
     else:
         raise AttributeError(f"module 'pathloom' has no attribute {name!r}")
     globals()[name] = value

@@ -22,6 +22,7 @@ from typing import Annotated, Any, ClassVar, Literal, Union
 import msgspec
 import numpy as np
 
+from pathloom.deprecation import Renamed
 from pathloom.errors import ConfigError
 from pathloom.naming import a
 
@@ -65,6 +66,10 @@ class Component:
     """The kind's name, which is also the usual name of the slot that takes it."""
     name: ClassVar[str] = ""
     """The component's name within its plugin."""
+    formerly: ClassVar[Mapping[str, str]] = {}
+    """Names that it bore before, each with the version that gave it another one. Configs may still say them."""
+    renamed: ClassVar[Mapping[str, Renamed]] = {}
+    """Parameters that have got another name, by the old one. Configs may still say them."""
     source: ClassVar[str] = ""
     """Where it comes from: author, year, section or equation."""
     reference: ClassVar[str] = ""
