@@ -7,6 +7,7 @@ import click
 
 from pathloom.cli import Group, asking
 from pathloom.cli.plugins_check import check
+from pathloom.cli.plugins_new import new
 from pathloom.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -18,10 +19,11 @@ if TYPE_CHECKING:
 
 @click.group("plugins", cls=Group)
 def command() -> None:
-    """List and show plugins and their components."""
+    """List, show, cite, check and begin plugins."""
 
 
 command.add_command(check)
+command.add_command(new)
 
 
 @command.command("list")
