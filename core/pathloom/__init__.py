@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from pathloom import compiled as compiled
     from pathloom.claims import Bench, Claim, Finding
+    from pathloom.deprecation import PathloomDeprecationWarning, Renamed, deprecated
     from pathloom.errors import ConfigError, MapError, PathloomError, PluginError, ProblemError
     from pathloom.exact import additive_optimum, additive_path, any_angle_path, exact_front, octile_path, validate
     from pathloom.fronts import ParetoResult
     from pathloom.grid import OccupancyGrid, full_cell_cover, write_map
     from pathloom.kernel.archive import Archive
-    from pathloom.kernel.component import Component, Count, NonNegative, Positive, Share, Whole
+    from pathloom.kernel.component import Component, Count, Distance, NonNegative, Positive, Share, Unit, Whole
     from pathloom.kernel.constraint import Constraint
     from pathloom.kernel.counting import count
     from pathloom.kernel.evaluation import Fitness, Floats, Objective, Term, Terms, Weighting
@@ -53,7 +54,7 @@ if TYPE_CHECKING:
     from pathloom.paths.vectors.decoding import Decoder
     from pathloom.paths.vectors.planner import VectorPlanner, VectorState
     from pathloom.paths.vectors.swarm import Swarm
-    from pathloom.planning import compose, freeze, iterate, plan
+    from pathloom.planning import compose, freeze, iterate, load_state, plan
     from pathloom.result import Result
     from pathloom.study import Study, ablate, compare
     from pathloom.study.tuning.experiment import tune
@@ -61,12 +62,13 @@ if TYPE_CHECKING:
 
 _HOME = {
     "claims": ("Bench", "Claim", "Finding"),
+    "deprecation": ("PathloomDeprecationWarning", "Renamed", "deprecated"),
     "errors": ("ConfigError", "MapError", "PathloomError", "PluginError", "ProblemError"),
     "exact": ("additive_optimum", "additive_path", "any_angle_path", "exact_front", "octile_path", "validate"),
     "fronts": ("ParetoResult",),
     "grid": ("OccupancyGrid", "full_cell_cover", "write_map"),
     "kernel.archive": ("Archive",),
-    "kernel.component": ("Component", "Count", "NonNegative", "Positive", "Share", "Whole"),
+    "kernel.component": ("Component", "Count", "Distance", "NonNegative", "Positive", "Share", "Unit", "Whole"),
     "kernel.counting": ("count",),
     "kernel.constraint": ("Constraint",),
     "kernel.evaluation": ("Fitness", "Floats", "Objective", "Term", "Terms", "Weighting"),
@@ -97,12 +99,14 @@ _HOME = {
     "paths.problem": ("PathProblem",),
     "paths.vectors.swarm": ("Swarm",),
     "paths.vectors.planner": ("VectorPlanner", "VectorState"),
-    "planning": ("compose", "freeze", "iterate", "plan"),
+    "planning": ("compose", "freeze", "iterate", "load_state", "plan"),
     "result": ("Result",),
     "study": ("Study", "ablate", "compare"),
     "study.tuning.experiment": ("tune",),
     "study.tuning.result": ("Tuning",),
 }  # fmt: skip
+_RENAMED: dict[str, tuple[str, str]] = {}
+"""Names of this module that are no more: what took their place, and the version that made it so."""
 _FROM = {name: module for module, names in _HOME.items() for name in names}
 
 __all__ = [
@@ -124,6 +128,7 @@ __all__ = [
     "Deadlock",
     "Decoder",
     "Deme",
+    "Distance",
     "Evolution",
     "Fidelity",
     "Finding",
@@ -153,6 +158,7 @@ __all__ = [
     "PathProblem",
     "PathRepair",
     "PathSampling",
+    "PathloomDeprecationWarning",
     "PathloomError",
     "PheromoneUpdate",
     "Planner",
@@ -163,6 +169,7 @@ __all__ = [
     "Probability",
     "Problem",
     "ProblemError",
+    "Renamed",
     "Repair",
     "Representation",
     "Result",
@@ -178,6 +185,7 @@ __all__ = [
     "Termination",
     "Terms",
     "Tuning",
+    "Unit",
     "VectorPlanner",
     "VectorState",
     "Weighting",
@@ -191,12 +199,14 @@ __all__ = [
     "compiled",
     "compose",
     "count",
+    "deprecated",
     "exact_front",
     "freeze",
     "full_cell_cover",
     "hookimpl",
     "iterate",
     "load_map",
+    "load_state",
     "octile_path",
     "pareto",
     "plan",
@@ -215,6 +225,12 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version
 
         value = version("pathloom")
+    elif name in _RENAMED:
+        from pathloom.deprecation import warn
+
+        new, since = _RENAMED[name]
+        warn(f"pathloom.{name}", since, f"pathloom.{new}", depth=3)
+        return getattr(importlib.import_module("pathloom"), new)
     else:
         raise AttributeError(f"module 'pathloom' has no attribute {name!r}")
     globals()[name] = value

@@ -118,7 +118,7 @@ class Bench:
     def runs(self, planner: str | Mapping[str, Any] | Planner, problem: PathProblem, seeds: int) -> list[Result]:
         """Return the results of seeds 0 to ``seeds`` − 1; those that were run before are not run again."""
         composed = compose(planner)
-        which = [freeze(composed, default_registry()), problem.grid.sha256, problem.ends, problem.corners]
+        which = [freeze(composed.unwatched, default_registry()), problem.grid.sha256, problem.ends, problem.corners]
         results = self._runs.setdefault(json.dumps(which, sort_keys=True), [])
         results += [plan(problem, composed, seed=seed) for seed in range(len(results), seeds)]
         return results[:seeds]

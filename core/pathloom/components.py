@@ -1,5 +1,6 @@
 """The components that belong to no paper, registered through the same hook as everybody's."""
 
+from pathloom.draw.live import Live
 from pathloom.exact.aloof import Aloof
 from pathloom.exact.planners import AnyAngle, Dijkstra
 from pathloom.exact.scalarised import Scalarised
@@ -7,12 +8,15 @@ from pathloom.kernel.archive import BestRefined
 from pathloom.kernel.evaluation import ReciprocalOfSum, WeightedReciprocals
 from pathloom.kernel.evolution import Evolution, Generational
 from pathloom.kernel.immigrants import RandomImmigrants
+from pathloom.kernel.json_lines import JsonLines
 from pathloom.kernel.memetic import Memetic
 from pathloom.kernel.mutation import OneOf
 from pathloom.kernel.plugins import Add, hookimpl
+from pathloom.kernel.progress import Progress
 from pathloom.kernel.repair import InTurn
 from pathloom.kernel.sampling import Mixed
 from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, Tournament
+from pathloom.kernel.snapshots import Snapshots
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnation, TargetFitness, WallTime
 from pathloom.paths.ants.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
@@ -47,5 +51,6 @@ def register(add: Add) -> None:
         Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,
         Rows, Waypoints,
         MaxGenerations, MaxEvaluations, Stagnation, TargetFitness, WallTime,
+        Progress, JsonLines, Snapshots, Live,
     ):  # fmt: skip
         add(component)

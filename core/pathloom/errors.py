@@ -23,3 +23,7 @@ class ConfigError(PathloomError):
 
 class PluginError(PathloomError):
     """A plugin is broken, clashes with another, or registers something unusable."""
+
+
+class PluginWarning(UserWarning):
+    """A plugin works, but does what it should not, such as printing when it is imported."""

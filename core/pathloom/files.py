@@ -6,6 +6,7 @@ import re
 import reprlib
 import secrets
 import stat
+from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
 
@@ -146,6 +147,56 @@ def lines(path: FilePath) -> list[str]:
     if not found:
         raise refusal(path, "", "nothing but blank lines", "one with content")
     return found
+
+
+def make_folder(path: FilePath) -> Path:
+    """Return a folder, which is made unless it is there, in an existing one.
+
+    Raises
+    ------
+    MapError
+        If it cannot be made.
+    """
+    folder = _nameable(path)
+    try:
+        folder.mkdir(exist_ok=True)
+    except FileNotFoundError as error:
+        raise refusal(path, "", "no such folder", "a new folder in an existing one") from error
+    except FileExistsError as error:
+        raise refusal(path, "", "a file", "a folder") from error
+    except OSError as error:
+        raise refusal(path, "", f"a place not writable ({reason(error)})", "a writable folder") from error
+    return folder
+
+
+@contextlib.contextmanager
+def appending(path: FilePath) -> Iterator[Callable[[str], None]]:
+    """Give a function that adds text to a file, begun anew, which others can read while it grows.
+
+    Raises
+    ------
+    MapError
+        If the folder is missing or not writable, or `path` is a folder.
+    """
+    target = _nameable(path)
+    try:
+        if target.is_dir():
+            raise refusal(path, "", "a folder", "a file to write")
+        stream = target.open("w", encoding="utf-8", newline="\n")
+    except FileNotFoundError as error:
+        raise refusal(path, "", "no such folder", "a file in an existing folder") from error
+    except OSError as error:
+        raise refusal(path, "", f"a place not writable ({reason(error)})", "a writable folder") from error
+
+    def write(text: str) -> None:
+        try:
+            stream.write(text)
+            stream.flush()
+        except OSError as error:
+            raise refusal(path, "", f"a place not writable ({reason(error)})", "a disk with room") from error
+
+    with contextlib.closing(stream):
+        yield write
 
 
 def replace(path: FilePath, data: bytes) -> None:

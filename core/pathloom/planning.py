@@ -13,7 +13,9 @@ from pathloom.config import DEFAULT_PLANNER, frozen, lasting, smoother
 from pathloom.errors import ConfigError, ProblemError
 from pathloom.exact import any_angle_search, contacts, octile_path, validate
 from pathloom.exact.curves import validate_curve
+from pathloom.files import FilePath
 from pathloom.kernel import compose as composition
+from pathloom.kernel import storing
 from pathloom.kernel.compose import compose, freeze
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.problem import Problem
@@ -27,7 +29,7 @@ from pathloom.paths.metrics import metrics
 from pathloom.paths.problem import PathProblem
 from pathloom.result import Result, Status, describe_problem, versions
 
-__all__ = ["compose", "freeze", "iterate", "plan"]
+__all__ = ["compose", "freeze", "iterate", "load_state", "plan"]
 
 
 def plan(
@@ -109,9 +111,15 @@ def plan(
 
 
 def iterate(
-    problem: Problem, planner: str | Mapping[str, Any] | Planner = DEFAULT_PLANNER, *, seed: int = 0
+    problem: Problem,
+    planner: str | Mapping[str, Any] | Planner = DEFAULT_PLANNER,
+    *,
+    seed: int = 0,
+    state: State | None = None,
 ) -> Iterator[State]:
     """Yield the state after the first population and after each generation, until the planner is done.
+
+    With ``state``, such as `load_state` gives, begin with that one and go on from it.
 
     Raises
     ------
@@ -122,7 +130,20 @@ def iterate(
     check_seed(seed)
     if isinstance(problem, PathProblem) and not problem.reachable:
         raise ProblemError(f"the goal cannot be reached under the corner policy {problem.corners!r}")
-    return iterate_planner(problem, composed, seed)
+    return iterate_planner(problem, composed, seed, state=state)
+
+
+def load_state(file: FilePath, problem: Problem, planner: str | Mapping[str, Any] | Planner = DEFAULT_PLANNER) -> State:
+    """Return a state that the observer ``snapshots`` saved, to go on from with `iterate`.
+
+    Raises
+    ------
+    ConfigError
+        If the file is damaged, or its run had another problem or another planner.
+    MapError
+        If there is no such file, or it cannot be read.
+    """
+    return storing.load_state(file, problem, composition.compose(planner))
 
 
 def check_limits(seed: object, time_limit: float | None) -> int:

@@ -7,7 +7,7 @@ import msgspec
 
 from pathloom.config import ProblemSpec
 from pathloom.fronts.asked import Asked
-from pathloom.kernel.component import Component, Parameter, parameters
+from pathloom.kernel.component import Component, Parameter, meanings, parameters
 from pathloom.kernel.compose import NONE
 from pathloom.kernel.evaluation import Objective, Terms, Weighting
 from pathloom.kernel.planner import Planner
@@ -76,6 +76,15 @@ def schema_of_config(registry: Registry) -> Schema:
     }
 
 
+def schema_of(parameter: Parameter) -> Schema:
+    """Return the JSON schema of a parameter's values; of a slot, the kind of component that it takes."""
+    if kind := parameter.slot or parameter.slots:
+        return {"kind": kind.kind, "many": parameter.slots is not None, "optional": parameter.optional}
+    if parameter.own_type is Terms:
+        return {"kind": Objective.kind, "many": True, "optional": parameter.optional}
+    return _of_type(parameter.hint)
+
+
 class _Writer:
     """Writes one definition for each kind and each component."""
 
@@ -103,11 +112,11 @@ class _Writer:
         return [e for e in self._entries if e.component.kind == kind]
 
     def _component(self, entry: Entry, **more: Any) -> Schema:
-        fields = {p.name: self._parameter(p) for p in parameters(entry.component)}
+        about = meanings(entry.component)
+        fields = {p.name: _described(self._parameter(p), p, about.get(p.name)) for p in parameters(entry.component)}
         required = [p.name for p in parameters(entry.component) if p.required]
-        about = (entry.component.__doc__ or "").strip().partition("\n")[0]
         table = _table({"use": {"enum": _names([entry])}, **fields, **more}, "use", *required)
-        return {"description": about, **table}
+        return {"description": (entry.component.__doc__ or "").strip().partition("\n")[0], **table}
 
     def _refinement(self, entries: list[Entry]) -> Schema:
         """Return the schema of a table without ``use``: fields of whatever stands in the slot."""
@@ -141,6 +150,17 @@ class _Writer:
         term = {"anyOf": [{"enum": _names(entries)}, *weighed.values()]}
         other = {"$ref": "#/$defs/term"}
         return {"type": "object", "minProperties": 1, "properties": by_name, "additionalProperties": other}, term
+
+
+def _described(schema: Schema, parameter: Parameter, about: str | None) -> Schema:
+    """Return a parameter's schema with what an editor shows of it: its meaning, its unit and its default."""
+    words = about or ""
+    if parameter.unit:
+        words = f"{words.rstrip('.')} [{parameter.unit}]." if words else f"[{parameter.unit}]"
+    shown: Schema = {"description": words} if words else {}
+    if isinstance(parameter.default, (bool, int, float, str)) and parameter.default == parameter.default:
+        shown["default"] = parameter.default
+    return {**shown, **schema}
 
 
 def _names(entries: list[Entry]) -> list[str]:

@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom import Collision, ConfigError, PathProblem, compiled, count
+from pathloom import Collision, ConfigError, PathProblem, Unit, compiled, count
 from pathloom.paths.cell_paths import flat_ids
 from pathloom.paths.collision import Exact
 from pathloom.paths.context import Context
@@ -30,7 +30,7 @@ class LinearTrial(Collision):
 
     arithmetic: Literal["floating", "exact"] = "floating"
     """``floating``: each sample is the last one plus ``step``, as printed; ``exact``: the same rule in integers."""
-    step: Annotated[float, msgspec.Meta(ge=0.001, le=0.25)] = 0.1
+    step: Annotated[float, msgspec.Meta(ge=0.001, le=0.25), Unit("cells")] = 0.1
     """Distance of samples along the longer axis, in cells; ``exact`` takes 1 / step to be an integer."""
     verified: bool = True
     """What passes must also pass the exact test under the problem's corner policy, of which the trial knows nothing."""

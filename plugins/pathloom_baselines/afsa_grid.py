@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from pathloom import (
     Count,
     Deme,
+    Distance,
     Fidelity,
-    Positive,
     Problem,
     Share,
     State,
@@ -60,7 +60,7 @@ class AfsaGrid(Search):
 
     fish: Count = 20
     """Number of fish."""
-    visual: Positive = 4.0
+    visual: Distance = 4.0
     """How far a fish sees, in cells."""
     delta: Share = 0.8
     """δ, the share of all fish from which on a place is crowded."""

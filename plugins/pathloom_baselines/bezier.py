@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from pathloom import (
     ConfigError,
     Count,
+    Distance,
     Fidelity,
     Floats,
     NonNegative,
     PathProblem,
-    Positive,
     Share,
     State,
     Termination,
@@ -83,7 +83,7 @@ class BezierGa(VectorPlanner, PolylinePlanner):
     """``pieces``: cubic curves that join smoothly; ``single``: one curve of degree ``points`` + 1, at most 12."""
     noise: NonNegative = 0.15
     """Standard deviation of the first control points about the straight way, as a share of the map's sides."""
-    safe: Positive = 1.5
+    safe: Distance = 1.5
     """Distance of a cell's centre from the nearest obstacle's centre from which on it is safe, in cells."""
     penalty: NonNegative = 10.0
     """λ, in cells of length for one unit of violation."""

@@ -5,7 +5,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from pathloom import ColonyState, Floats, PheromoneUpdate, Population, Positive
+from pathloom import ColonyState, Distance, Floats, PheromoneUpdate, Population
 from pathloom.paths.ants.ant_system import Least, max_min_limits
 from pathloom.paths.ants.pheromone import Rate
 
@@ -23,7 +23,7 @@ class TwoBest(PheromoneUpdate):
     source: ClassVar[str] = "Song et al. 2021, section 5.5.1, eqs. (31) to (34)"
 
     rho: Rate = 0.3
-    q: Positive = 1.0
+    q: Distance = 1.0
     """Scale of the deposit, in cells; eq. (32) has none."""
     least: Least | Literal["none"] = "chance"
     """τ_min of the MAX-MIN ant system, with its τ_max = 1 / (ρ D_g): see `MaxMin` among the colony's parts. The paper

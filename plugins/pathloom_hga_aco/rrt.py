@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom import Count, Fidelity, Positive, Problem, Share, State, Termination, Terms, compiled
+from pathloom import Count, Distance, Fidelity, Positive, Problem, Share, State, Termination, Terms, compiled
 from pathloom.kernel.counting import count, counting
 from pathloom.kernel.search import Search
 from pathloom.kernel.state import Individual, generator
@@ -84,7 +84,7 @@ class Rrt(Search, PolylinePlanner):
     )
 
     objectives: Terms = Terms({"length": Length()})
-    step_length: Positive = 1.7
+    step_length: Distance = 1.7
     """Length of a branch in cells: δ."""
     goal_bias: Share = 0.05
     """Probability that the goal is the target instead of a random point: 1 − p."""

@@ -5,7 +5,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from pathloom import Colony, Deme, Floats, InitialPheromone, PathProblem, Positive, Share, compiled
+from pathloom import Colony, Deme, Distance, Floats, InitialPheromone, PathProblem, Positive, Share, compiled
 from pathloom.paths.ants.ant_system import Least, share_of_least
 
 
@@ -21,7 +21,7 @@ class GaPheromoneSeed(InitialPheromone):
 
     share: Share = 0.2
     """How many of the known paths are laid, best first, at least one: "some" in the paper."""
-    phi: Positive = 1.0
+    phi: Distance = 1.0
     """φ, in cells; not in the paper."""
     overlap: Literal["max", "sum"] = "max"
     """What a step bears that several of the paths take; not in the paper."""

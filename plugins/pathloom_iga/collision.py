@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from pathloom import Collision, PathProblem, Positive, compiled
+from pathloom import Collision, Distance, PathProblem, compiled
 from pathloom.paths.cell_paths import flat_ids
 
 
@@ -24,7 +24,7 @@ class LineDistance(Collision):
 
     source: ClassVar[str] = "Liu et al. 2024, section 3.6, eq. (11)"
 
-    threshold: Positive = math.sqrt(2.0)
+    threshold: Distance = math.sqrt(2.0)
     """Distance, in cells, below which an obstacle is in the way. A distance equal to it is not."""
 
     def segments_free(self, a: NDArray[Any], b: NDArray[Any], problem: PathProblem) -> NDArray[np.bool_]:
@@ -41,7 +41,7 @@ class SegmentDistance(Collision):
 
     source: ClassVar[str] = "after Liu et al. 2024, section 3.6, eq. (11)"
 
-    threshold: Positive = math.sqrt(0.5)
+    threshold: Distance = math.sqrt(0.5)
     """Distance, in cells, below which an obstacle is in the way. A distance equal to it is not."""
 
     def segments_free(self, a: NDArray[Any], b: NDArray[Any], problem: PathProblem) -> NDArray[np.bool_]:

@@ -19,6 +19,7 @@ class UnsafeNode(Objective):
     works_on: ClassVar[str] = "cells"
 
     penalty: NonNegative = 5.0
+    """What the value is increased by."""
     per: Literal["node", "obstacle"] = "node"
     """The text says that the value "is increased by 5": once for the node, or for each obstacle beside it."""
 

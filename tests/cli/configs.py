@@ -43,6 +43,14 @@ limit = 8
 use = "stagnation"
 patience = 6
 
+[[planner.observers]]
+use = "json-lines"
+file = "log.jsonl"
+
+[[planner.observers]]
+use = "snapshots"
+every = 4
+
 [run]
 seed = 7
 time_limit = 60

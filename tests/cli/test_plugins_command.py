@@ -5,6 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from pathloom.kernel.component import meanings, parameters
+from pathloom.kernel.registry import default_registry
+
 from .conftest import write
 
 PARTS = [
@@ -78,3 +81,53 @@ def test_cite_of_a_config_cites_the_papers_of_its_parts(cli, folder: Path) -> No
 def test_cite_of_an_unknown_planner_or_file_is_refused(refused) -> None:
     assert "did you mean 'imga/imga'?" in refused("plugins", "cite", "imgaa")
     assert refused("plugins", "cite", "gone.toml").startswith("gone.toml: found no such file")
+
+
+def test_list_tells_the_fidelity_of_planners(cli) -> None:
+    rows = cli("plugins", "list", "--kind", "planner", "--json").document["components"]
+    assert {row["fidelity"] for row in rows} == {"faithful", "standard", "reconstructed"}
+
+
+def test_show_tells_type_range_unit_default_and_meaning_of_each_parameter(cli) -> None:
+    document = cli("plugins", "show", "rrt", "--json").document
+    found = {row["name"]: row for row in document["parameters"]}
+    assert found["step_length"] == {
+        "name": "step_length",
+        "type": {"type": "number", "exclusiveMinimum": 0.0},
+        "allowed": "a number in (0.0, inf)",
+        "unit": "cells",
+        "default": "1.7",
+        "about": "Length of a branch in cells: δ.",
+    }
+    assert found["refinement"]["type"] == {"kind": "repair", "many": False, "optional": True}
+    assert found["termination"]["type"] == {"kind": "termination", "many": True, "optional": False}
+
+
+def test_show_tells_what_a_part_works_on_and_may_break(cli) -> None:
+    shown = cli("plugins", "show", "point-deletion").out
+    assert "Works on: cells\n" in shown
+    assert "May break: 8-connected\n" in shown
+
+
+def test_every_parameter_of_ours_says_what_it_means() -> None:
+    silent = [
+        f"{entry.name}.{parameter.name}"
+        for entry in default_registry().all_entries()
+        if entry.source.ours
+        for parameter in parameters(entry.component)
+        if not meanings(entry.component).get(parameter.name)
+    ]
+    assert silent == []
+
+
+def test_cite_reads_the_smoother_and_the_rivals_of_a_front_too(cli, folder: Path) -> None:
+    write(folder / "mine.toml", '[planner]\nuse = "nsga2"\n[front]\nagainst = ["imga"]\n[run]\nsmooth = "b-spline"\n')
+    cited = cli("plugins", "cite", "mine.toml").out
+    assert cited.startswith("@article{deb2002nsga2,")
+    assert "\n\n@article{li2021imga," in cited
+
+
+def test_cite_says_when_there_is_nothing_to_cite(cli) -> None:
+    done = cli("plugins", "cite", "any-angle")
+    assert (done.code, done.out) == (0, "")
+    assert done.err == "pathloom: any-angle: found nothing that names a publication\n"

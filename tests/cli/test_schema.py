@@ -90,3 +90,14 @@ LAX = {
 @pytest.mark.parametrize("text", LAX.values(), ids=LAX)
 def test_the_schema_rejects_what_is_misspelt_in_refinements_and_terms(accepts, text) -> None:
     assert not accepts(text)
+
+
+def test_the_schema_shows_an_editor_what_a_field_means_its_unit_and_its_default(schema) -> None:
+    fields = schema["$defs"]["planner:hga-aco.rrt"]["properties"]
+    assert fields["step_length"] == {
+        "description": "Length of a branch in cells: δ [cells].",
+        "default": 1.7,
+        "type": "number",
+        "exclusiveMinimum": 0.0,
+    }
+    assert fields["refinement"]["description"] == "Improves the answer at the end."

@@ -4,17 +4,19 @@ import json
 import signal
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as Bar
 
 from pathloom.compiled.jit import listening
+from pathloom.draw import Live
 from pathloom.kernel.planner import Planner
-from pathloom.kernel.state import State
+from pathloom.kernel.progress import Progress
 
 PATIENCE = 0.7
 """Seconds of work before progress is shown."""
@@ -81,28 +83,17 @@ def compiling(*, quiet: bool) -> Iterator[None]:
         _stop(bar)
 
 
-@contextmanager
-def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], None]]:
-    """Give a function that is told every state, and shows progress when the work takes long."""
-    console = err()
-    bar = _bar(console)
-    task = bar.add_task(planner.name, total=1.0)
-    began = time.perf_counter()
+def watched(planner: Planner, *, quiet: bool) -> Planner:
+    """Return the planner with somebody who shows progress when the work takes long, unless the config names one.
 
-    def watch(state: State) -> None:
-        if quiet or not console.is_terminal or time.perf_counter() - began < PATIENCE:
-            return
-        bar.start()
-        bar.update(
-            task,
-            completed=planner.progress(state),
-            description=f"{planner.name}, generation {state.generation}",
-        )
-
-    try:
-        yield watch
-    finally:
-        _stop(bar)
+    Quiet, nobody writes to the terminal, whatever the config names.
+    """
+    showing = [
+        one for one in planner.observers if isinstance(one, Progress) or (isinstance(one, Live) and not one.file)
+    ]
+    if quiet:
+        return replace(planner, observers=tuple(one for one in planner.observers if one not in showing))
+    return planner if showing else replace(planner, observers=(*planner.observers, Progress(patience=PATIENCE)))
 
 
 @contextmanager
@@ -158,12 +149,12 @@ def between_generations() -> Iterator[Callable[[bool], None]]:
         signal.signal(signal.SIGINT, before)
 
 
-def _bar(console: Console) -> Progress:
+def _bar(console: Console) -> Bar:
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    return Progress(*columns, console=console, transient=True)
+    return Bar(*columns, console=console, transient=True)
 
 
-def _stop(bar: Progress) -> None:
+def _stop(bar: Bar) -> None:
     """Take a bar away that was shown; rich would print a blank line for one that was not."""
     if bar.live.is_started:
         bar.stop()

@@ -68,15 +68,14 @@ def _run(
     from pathloom.multiobjective import pareto
 
     asked = config.front
-    with console.planning(planner, quiet=options["quiet"]) as tell, console.between_generations() as check:
+    with console.between_generations() as check:
 
         def watch(state: Any) -> None:
-            tell(state)
             check(planner.done(state))
 
         result = pareto(
             problem,
-            planner,
+            console.watched(planner, quiet=options["quiet"]),
             seed=config.seed,
             time_limit=config.time_limit,
             exact=asked.exact,

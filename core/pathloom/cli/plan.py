@@ -59,17 +59,16 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
 
     frames: list[Any] = []
     animated = bool(options["plot"]) and Path(options["plot"]).suffix.lower() == ".gif"
-    with console.planning(planner, quiet=options["quiet"]) as tell, console.between_generations() as check:
+    with console.between_generations() as check:
 
         def watch(state: Any) -> None:
-            tell(state)
             if animated:
                 frames.append(report.frame(state))
             check(planner.done(state))
 
         result = plan(
             problem,
-            planner,
+            console.watched(planner, quiet=options["quiet"]),
             seed=config.seed,
             time_limit=config.time_limit,
             optimum=options["optimum"],

@@ -6,17 +6,24 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pathloom.cli import Group, asking
+from pathloom.cli.plugins_check import check
+from pathloom.cli.plugins_new import new
 from pathloom.errors import ConfigError
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from pathloom.kernel.component import Parameter
     from pathloom.kernel.registry import Entry, Registry
 
 
 @click.group("plugins", cls=Group)
 def command() -> None:
-    """List and show plugins and their components."""
+    """List, show, cite, check and begin plugins."""
+
+
+command.add_command(check)
+command.add_command(new)
 
 
 @command.command("list")
@@ -27,6 +34,7 @@ def list_(kind: str | None, as_json: bool) -> None:
     from rich.table import Table
 
     from pathloom.cli import console
+    from pathloom.kernel.planner import Planner
     from pathloom.kernel.registry import default_registry
     from pathloom.naming import closest
 
@@ -41,9 +49,10 @@ def list_(kind: str | None, as_json: bool) -> None:
             "kind": e.component.kind,
             "name": e.name,
             "about": _about(e.component),
-            "source": e.component.source or getattr(e.component, "reference", ""),
+            "source": e.component.source or e.component.reference,
             "plugin": e.source.namespace,
             "distribution": f"{e.source.distribution} {e.source.version}".strip(),
+            **({"fidelity": e.component.fidelity} if issubclass(e.component, Planner) else {}),
         }
         for e in entries
         if kind in (None, e.component.kind)
@@ -102,38 +111,45 @@ def _called(name: str, registry: "Registry") -> list["Entry"]:
 
 def _document(entry: "Entry", registry: "Registry") -> dict[str, Any]:
     """Return all that a component declares of itself."""
-    from pathloom.kernel.component import parameters
+    from pathloom.kernel.component import meanings, parameters
     from pathloom.kernel.compose import freeze
     from pathloom.kernel.planner import Planner
 
     component = entry.component
-    meanings = _field_docs(component)
+    about = meanings(component)
     document: dict[str, Any] = {
         "name": entry.name,
         "kind": component.kind,
         "about": inspect.getdoc(component) or "",
         "source": component.source,
         "plugin": str(entry.source),
+        "works_on": component.works_on,
         "needs": sorted(component.needs),
-        "parameters": [
-            {
-                "name": parameter.name,
-                "allowed": parameter.allowed,
-                "default": "needed" if parameter.required else _default(parameter.default, registry),
-                "about": meanings.get(parameter.name, ""),
-            }
-            for parameter in parameters(component)
-        ],
+        "gives": sorted(component.gives),
+        "breaks": sorted(component.breaks),
+        "reference": component.reference,
+        "bibtex": component.bibtex,
+        "parameters": [_parameter(p, about.get(p.name, ""), registry) for p in parameters(component)],
     }
     if issubclass(component, Planner):
-        document |= {
-            "reference": component.reference,
-            "fidelity": component.fidelity,
-            "assumptions": list(component.assumptions),
-        }
+        document |= {"fidelity": component.fidelity, "assumptions": list(component.assumptions)}
         if not any(p.required for p in parameters(component)):
             document["config"] = freeze(component(), registry)
     return document
+
+
+def _parameter(parameter: "Parameter", about: str, registry: "Registry") -> dict[str, Any]:
+    """Return all that a component declares of a parameter: ``type`` is a JSON schema, or the kind that a slot takes."""
+    from pathloom.schema import schema_of
+
+    return {
+        "name": parameter.name,
+        "type": schema_of(parameter),
+        "allowed": parameter.allowed,
+        "unit": parameter.unit,
+        "default": "needed" if parameter.required else _default(parameter.default, registry),
+        "about": about,
+    }
 
 
 def _print(document: dict[str, Any], out: "Console") -> None:
@@ -142,19 +158,25 @@ def _print(document: dict[str, Any], out: "Console") -> None:
 
     out.print(Text.assemble((document["name"], "bold"), f", {document['kind']}, {document['plugin']}"))
     out.print(document["about"])
-    if document["source"]:
-        out.print(f"Source: {document['source']}")
-    if document.get("reference"):
-        out.print(f"Reference: {document['reference']}")
-        out.print(f"Fidelity: {document['fidelity']}")
-        for assumption in document["assumptions"]:
-            out.print(f"  - {assumption}")
+    for head, text in (
+        ("Source", document["source"]),
+        ("Reference", document["reference"]),
+        ("Works on", document["works_on"]),
+        ("Needs", ", ".join(document["needs"])),
+        ("Gives", ", ".join(document["gives"])),
+        ("May break", ", ".join(document["breaks"])),
+        ("Fidelity", document.get("fidelity") if document["reference"] else ""),
+    ):
+        if text:
+            out.print(f"{head}: {text}")
+    for assumption in document.get("assumptions", ()):
+        out.print(f"  - {assumption}")
     if document["parameters"]:
         table = Table(box=None, pad_edge=False)
-        for head in ("parameter", "allowed", "default", "meaning"):
-            table.add_column(head)
+        for head in ("parameter", "allowed", "unit", "default", "meaning"):
+            table.add_column(head, no_wrap=head in ("parameter", "unit"))
         for row in document["parameters"]:
-            table.add_row(row["name"], row["allowed"], row["default"], row["about"])
+            table.add_row(row["name"], row["allowed"], row["unit"], row["default"], row["about"])
         out.print(table)
 
 
@@ -175,12 +197,17 @@ def cite(config: str) -> None:
     """Print BibTeX entries of the planner and the parts that a config (or a planner's name) uses."""
     from pathlib import Path
 
-    from pathloom.config import read_config
+    from pathloom.cli import console
+    from pathloom.config import Config, read_config
     from pathloom.kernel.citing import works_of
     from pathloom.kernel.compose import compose
 
-    planner = compose(read_config(config).planner if Path(config).suffix == ".toml" else config)
-    click.echo("\n".join(work.bibtex for work in works_of([planner]) if work.bibtex), nl=False)
+    used = read_config(config) if Path(config).suffix == ".toml" else Config(planner={"use": config})
+    parts = [compose(used.planner), *used.front.rivals(), *filter(None, [used.smooth])]
+    entries = [work.bibtex.rstrip() + "\n" for work in works_of(parts) if work.bibtex]
+    click.echo("\n".join(entries), nl=False)
+    if not entries:
+        console.err().print(f"pathloom: {config}: found nothing that names a publication", soft_wrap=True)
 
 
 def _about(component: type) -> str:
@@ -197,27 +224,3 @@ def _default(value: Any, registry: Any) -> str:
     if isinstance(value, tuple):
         return ", ".join(_default(getattr(v, "objective", v), registry) for v in value) or "none"
     return str(value)
-
-
-def _field_docs(component: type) -> dict[str, str]:
-    """Return the docstrings that stand below the fields of a class and its bases."""
-    import ast
-    import textwrap
-    from itertools import pairwise
-
-    docs: dict[str, str] = {}
-    for base in reversed(component.__mro__):
-        try:
-            tree = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
-        except (OSError, TypeError, SyntaxError):
-            continue
-        body = tree.body if isinstance(tree, ast.ClassDef) else []
-        for statement, text in pairwise(body):
-            if (
-                isinstance(statement, ast.AnnAssign)
-                and isinstance(statement.target, ast.Name)
-                and isinstance(text, ast.Expr)
-                and isinstance(text.value, ast.Constant)
-            ):
-                docs[statement.target.id] = " ".join(str(text.value.value).split())
-    return docs

@@ -2,7 +2,8 @@
 
 from pathloom.draw.animation import Frame, animate
 from pathloom.draw.figure import path_figure
+from pathloom.draw.live import Live
 from pathloom.draw.saving import save
 from pathloom.draw.terminal import picture
 
-__all__ = ["Frame", "animate", "path_figure", "picture", "save"]
+__all__ = ["Frame", "Live", "animate", "path_figure", "picture", "save"]

@@ -6,19 +6,32 @@ remembered between calls, so a component can be compared, hashed, pickled,
 frozen into a config and rebuilt from it.
 """
 
+import ast
 import dataclasses
+import inspect
 import math
 import re
+import sys
 import types
 import typing
 from collections.abc import Iterator, Mapping
+from functools import cache
+from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Union
 
 import msgspec
 import numpy as np
 
+from pathloom.deprecation import Renamed
 from pathloom.errors import ConfigError
 from pathloom.naming import a
+
+
+class Unit(str):
+    """What a number is measured in: ``Annotated[Positive, Unit("cells")]``."""
+
+    __slots__ = ()
+
 
 Share = Annotated[float, msgspec.Meta(ge=0.0, le=1.0)]
 """A probability or a fraction."""
@@ -32,6 +45,8 @@ NonNegative = Annotated[float, msgspec.Meta(ge=0.0)]
 """A real number, zero or more."""
 Positive = Annotated[float, msgspec.Meta(gt=0.0)]
 """A real number above zero."""
+Distance = Annotated[float, msgspec.Meta(gt=0.0), Unit("cells")]
+"""A distance above zero, in cells."""
 
 
 def kebab(name: str) -> str:
@@ -51,8 +66,16 @@ class Component:
     """The kind's name, which is also the usual name of the slot that takes it."""
     name: ClassVar[str] = ""
     """The component's name within its plugin."""
+    formerly: ClassVar[Mapping[str, str]] = {}
+    """Names that it bore before, each with the version that gave it another one. Configs may still say them."""
+    renamed: ClassVar[Mapping[str, Renamed]] = {}
+    """Parameters that have got another name, by the old one. Configs may still say them."""
     source: ClassVar[str] = ""
     """Where it comes from: author, year, section or equation."""
+    reference: ClassVar[str] = ""
+    """The publication that describes it: authors, year, title, DOI. Left empty by a part of its plugin's one paper."""
+    bibtex: ClassVar[str] = ""
+    """The same as a BibTeX entry."""
     works_on: ClassVar[str] = ""
     """Name of the representation that it needs; empty: any."""
     needs: ClassVar[frozenset[str]] = frozenset()
@@ -67,6 +90,8 @@ class Component:
     They stay when another operator is put into the slot, so that a study which
     swaps one operator swaps nothing else.
     """
+    example: ClassVar[Mapping[str, Any]] = {}
+    """Values of parameters, as in a config, with which the contract kit tries a component that has no defaults."""
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -113,12 +138,12 @@ class Parameter:
     @property
     def optional(self) -> bool:
         """Whether ``None`` is allowed."""
-        return type(None) in _alternatives(self.hint)
+        return type(None) in alternatives(self.hint)
 
     @property
     def slot(self) -> type[Component] | None:
         """The kind that the field takes, if it takes one component."""
-        return next((h for h in _alternatives(self.hint) if _is_kind(h)), None)
+        return next((h for h in alternatives(self.hint) if _is_kind(h)), None)
 
     @property
     def slots(self) -> type[Component] | None:
@@ -132,7 +157,16 @@ class Parameter:
     @property
     def own_type(self) -> Any:
         """The type that the field takes if that is one which checks its values itself: a table of objectives."""
-        return next((h for h in _alternatives(self.hint) if hasattr(h, "__checked__")), None)
+        return next((h for h in alternatives(self.hint) if hasattr(h, "__checked__")), None)
+
+    @property
+    def unit(self) -> str:
+        """What the number is measured in; empty where it is a mere number, or none."""
+        for hint in alternatives(self.hint):
+            found = [str(m) for m in getattr(hint, "__metadata__", ()) if isinstance(m, Unit)]
+            if found:
+                return found[-1]
+        return ""
 
     @property
     def allowed(self) -> str:
@@ -195,11 +229,51 @@ def members(component: Component) -> Iterator[tuple[str, Component]]:
                 yield parameter.name, one
 
 
+def meanings(component: type) -> dict[str, str]:
+    """Return the docstrings that stand below the fields of a class and its bases, each as one line."""
+    docs: dict[str, str] = {}
+    for base in reversed(component.__mro__):
+        if dataclasses.is_dataclass(base):
+            docs |= _documented(base.__module__).get(base.__qualname__, {})
+    return docs
+
+
+@cache
+def _documented(module: str) -> dict[str, dict[str, str]]:
+    """Return the docstrings of the fields of all classes of a module, by class; empty without its source."""
+    try:
+        tree = ast.parse(inspect.getsource(sys.modules[module]))
+    except (KeyError, OSError, TypeError, SyntaxError):
+        return {}
+    found: dict[str, dict[str, str]] = {}
+    pending: list[tuple[str, ast.AST]] = [("", tree)]
+    while pending:
+        prefix, node = pending.pop()
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.ClassDef):
+                found[prefix + child.name] = _documented_in(child.body)
+                pending.append((f"{prefix}{child.name}.", child))
+            elif isinstance(child, (ast.FunctionDef, ast.If)):
+                inner = f"{prefix}{child.name}.<locals>." if isinstance(child, ast.FunctionDef) else prefix
+                pending.append((inner, child))
+    return found
+
+
+def _documented_in(body: list[ast.stmt]) -> dict[str, str]:
+    return {
+        statement.target.id: " ".join(str(text.value.value).split())
+        for statement, text in pairwise(body)
+        if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
+        if isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)
+    }
+
+
 def _is_kind(hint: Any) -> bool:
     return isinstance(hint, type) and issubclass(hint, Component)
 
 
-def _alternatives(hint: Any) -> tuple[Any, ...]:
+def alternatives(hint: Any) -> tuple[Any, ...]:
+    """Return the types of which a value may be any."""
     if typing.get_origin(hint) in (Union, types.UnionType):
         return typing.get_args(hint)
     return (hint,)
@@ -210,7 +284,7 @@ _WORDS = {float: "a number", int: "an integer", bool: "true or false", str: "a t
 
 def describe(hint: Any) -> str:
     """Say in words which values a type allows."""
-    many = _alternatives(hint)
+    many = alternatives(hint)
     if len(many) > 1:
         return " or ".join(describe(one) for one in many)
     origin, inner = typing.get_origin(hint), typing.get_args(hint)

@@ -9,6 +9,7 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
+from pathloom.deprecation import warn
 from pathloom.errors import ConfigError
 from pathloom.kernel.component import Component, Parameter, parameters
 from pathloom.kernel.evaluation import Objective, Term, Terms
@@ -75,6 +76,7 @@ def override(component: C, path: str, value: Any, registry: Registry | None = No
     head, _, rest = path.partition(".")
     here = f"{where}.{head}" if where else head
     parameter = _parameter(type(component), head, where, registry)
+    head = parameter.name
     current = getattr(component, head)
     if not rest:
         return refine(component, {head: value}, registry, where)
@@ -150,8 +152,8 @@ def _assemble(component: type[C], table: Mapping[str, Any], base: C | None, regi
         if key == "use" and base is None:
             continue
         parameter = _parameter(component, key, where, registry)
-        current = getattr(base, key) if base is not None else parameter.default
-        fields[key] = _value(parameter, value, current, registry, f"{where}.{key}" if where else key)
+        current = getattr(base, parameter.name) if base is not None else parameter.default
+        fields[parameter.name] = _value(parameter, value, current, registry, f"{where}.{key}" if where else key)
     if base is None:
         for parameter in parameters(component):
             if parameter.required and parameter.name not in fields:
@@ -240,8 +242,12 @@ def _labelled(values: Sequence[Any], where: str) -> dict[str, Any]:
 
 def _parameter(component: type[Component], name: str, where: str, registry: Registry) -> Parameter:
     known = {p.name: p for p in parameters(component)}
+    at = f"{where}.{name}" if where else name
+    if name not in known and name in component.renamed:
+        new, since = component.renamed[name]
+        warn(f"{at} of {registry.name_of(component)!r}", since, repr(new))
+        return known[new]
     if name not in known:
-        at = f"{where}.{name}" if where else name
         called = registry.name_of(component)
         what = "slot or parameter" if issubclass(component, Planner) else "parameter"
         raise ConfigError(f"{at}: {called!r} has no such {what}; {closest(name, known)}")

@@ -1,8 +1,8 @@
 """Planner: a method that solves a problem, step by step."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +34,6 @@ class Planner(Component, ABC):
     """A method. It keeps nothing between calls: all that it has reached is in the state."""
 
     kind: ClassVar[str] = "planner"
-    reference: ClassVar[str] = ""
-    """The publication that describes it: authors, year, title, DOI."""
-    bibtex: ClassVar[str] = ""
-    """The same as a BibTeX entry."""
     fidelity: ClassVar[Fidelity] = "standard"
     """``faithful`` to its paper, the ``standard`` form known from the field, or ``reconstructed`` from hints."""
     assumptions: ClassVar[tuple[str, ...]] = ()
@@ -71,6 +67,11 @@ class Planner(Component, ABC):
     def fitness_of(self, row: NDArray[Any], problem: Problem) -> tuple[dict[str, float], float | None]:
         """Return the objective values of one individual by label, and its fitness where there is one."""
         return {}, None
+
+    @property
+    def unwatched(self) -> Self:
+        """The planner without observers: all that its results depend on."""
+        return replace(self, observers=()) if self.observers else self
 
     def done(self, state: State) -> bool:
         """Say whether the run is over."""

@@ -22,3 +22,8 @@ class Problem(Component, ABC):
     @abstractmethod
     def representation(self) -> Representation:
         """How the solutions are written in arrays."""
+
+    @property
+    def fingerprint(self) -> str:
+        """What tells it from other problems, alike in every process: a saved state is taken up on its own one only."""
+        return repr(self)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TypeVar
 
+from pathloom.deprecation import warn
 from pathloom.errors import ConfigError, PluginError
 from pathloom.kernel.component import Component
 from pathloom.kernel.plugins import Source, components_of, installed
@@ -126,10 +127,20 @@ class Registry:
             raise ConfigError(f"{at}{name!r} is ambiguous: {' or '.join(repr(e.name) for e in fitting)}")
         if fitting:
             return fitting[0].component  # type: ignore[return-value]
+        if former := self._formerly(kind, namespace, tail):
+            warn(f"{at}the name {name!r}", former.component.formerly[tail], repr(former.name))
+            return former.component  # type: ignore[return-value]
         if found:
             raise ConfigError(f"{at}{name!r} is {a(found[0].component.kind)}, not {a(kind.kind)}")
         hint = closest(name, (e.name for e in self.all_entries(kind)))
         raise ConfigError(f"{at}no {kind.kind} is called {name!r}; {hint}")
+
+    def _formerly(self, kind: type[Component], namespace: str, tail: str) -> Entry | None:
+        """Return the component of a kind that bore a name before, if there is one."""
+        for entry in self.all_entries(kind):
+            if tail in entry.component.formerly and namespace in ("", entry.source.namespace):
+                return entry
+        return None
 
     def _bare(self, kind: type[Component], name: str) -> list[Entry]:
         """Return the entries of a bare name in the first tier that has one of the kind, else those of other kinds."""

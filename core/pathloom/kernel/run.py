@@ -2,7 +2,8 @@
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -52,19 +53,25 @@ def first_generator(seed: int) -> np.random.Generator:
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(check_seed(seed))))
 
 
-def iterate(problem: Problem, planner: Planner, seed: int = 0) -> Iterator[State]:
+def iterate(
+    problem: Problem, planner: Planner, seed: int = 0, *, state: State | None = None
+) -> Generator[State, None, None]:
     """Yield the first state and then one a generation, until the planner is done.
 
-    Every state can be kept, pickled, and stepped on from again.
+    Every state can be kept, pickled, and stepped on from again. With ``state``
+    that one is the first, and the seed of no importance: its generator goes on.
     """
-    state = planner.start(problem, first_generator(seed))
-    while True:
-        for observer in planner.observers:
-            observer.observe(state)
-        yield state
-        if planner.done(state):
-            return
-        state = planner.step(state)
+    with ExitStack() as watching:
+        told = [watching.enter_context(observer.watch(problem, planner)) for observer in planner.observers]
+        if state is None:
+            state = planner.start(problem, first_generator(seed))
+        while True:
+            for tell in told:
+                tell(state)
+            yield state
+            if planner.done(state):
+                return
+            state = planner.step(state)
 
 
 def run(
@@ -95,16 +102,17 @@ def run(
     state: State | None = None
     interrupted = False
     try:
-        for state in iterate(problem, planner, seed):
-            if watch is not None:
-                watch(state)
-            now = clock() - began
-            phases.setdefault("sampling", now)
-            if state.answer is not None and state.answer is not answer:
-                answer, best = state.answer, now
-                first = now if first is None else first
-            if time.perf_counter() >= until:
-                break
+        with closing(iterate(problem, planner, seed)) as states:
+            for state in states:
+                if watch is not None:
+                    watch(state)
+                now = clock() - began
+                phases.setdefault("sampling", now)
+                if state.answer is not None and state.answer is not answer:
+                    answer, best = state.answer, now
+                    first = now if first is None else first
+                if time.perf_counter() >= until:
+                    break
     except (KeyboardInterrupt, SystemError) as error:
         check_interrupt(error)
         interrupted = True

@@ -2,9 +2,9 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from pathloom.kernel.component import Component, Count, Positive
+from pathloom.kernel.component import Component, Count, Positive, Unit
 from pathloom.kernel.state import State
 
 
@@ -27,7 +27,8 @@ class Termination(Component, ABC):
 class MaxGenerations(Termination):
     """Stop after a number of generations."""
 
-    limit: Count = 50
+    limit: Annotated[Count, Unit("generations")] = 50
+    """The last generation; the first population is number 0."""
 
     def done(self, state: State) -> bool:
         return state.generation >= self.limit
@@ -40,7 +41,8 @@ class MaxGenerations(Termination):
 class MaxEvaluations(Termination):
     """Stop when a number of evaluations is spent; the generation under way is finished."""
 
-    limit: Count = 5000
+    limit: Annotated[Count, Unit("evaluations")] = 5000
+    """How many there may be, of all populations together."""
 
     def done(self, state: State) -> bool:
         return state.evaluations >= self.limit
@@ -53,7 +55,8 @@ class MaxEvaluations(Termination):
 class Stagnation(Termination):
     """Stop when the best individual has not changed for a number of generations."""
 
-    patience: Count = 40
+    patience: Annotated[Count, Unit("generations")] = 40
+    """How long the best individual may stay the same."""
 
     def done(self, state: State) -> bool:
         return state.best is not None and state.generation - state.best.generation >= self.patience
@@ -64,6 +67,7 @@ class TargetFitness(Termination):
     """Stop when the best fitness reaches a value."""
 
     value: float
+    """The fitness that is good enough."""
 
     def done(self, state: State) -> bool:
         return state.best is not None and state.best.fitness >= self.value
@@ -73,8 +77,8 @@ class TargetFitness(Termination):
 class WallTime(Termination):
     """Stop after a time. The result then depends on the machine."""
 
-    seconds: Positive = 300.0
-    """Limit in seconds."""
+    seconds: Annotated[Positive, Unit("seconds")] = 300.0
+    """Time from the beginning on."""
 
     def done(self, state: State) -> bool:
         return state.seconds >= self.seconds

@@ -2,8 +2,9 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -32,6 +33,8 @@ class Bound(Constraint):
     violation is the distance to the limit, as a share of the limit where that is
     not 0, so that violations of several quantities can be added up.
     """
+
+    example: ClassVar[Mapping[str, Any]] = {"at_most": 40.0}
 
     objective: Objective
     """Whose quantity is bounded."""

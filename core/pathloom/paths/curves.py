@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pathloom import compiled
-from pathloom.kernel.component import Component
+from pathloom.kernel.component import Component, Unit
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.state import State
 from pathloom.paths.problem import PathProblem
@@ -76,7 +76,7 @@ class PiecewiseBezier(Smoother):
     deeper as not entering (``allow``).
     """
 
-    tolerance: Annotated[float, msgspec.Meta(ge=1e-6)] = 1e-3
+    tolerance: Annotated[float, msgspec.Meta(ge=1e-6), Unit("cells")] = 1e-3
     """How far chords between the points given may depart from the curve, in cells."""
     halvings: Annotated[int, msgspec.Meta(ge=0, le=30)] = 12
     """How often the distance between control points is halved where the curve collides."""

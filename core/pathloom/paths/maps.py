@@ -5,7 +5,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pathloom.errors import ConfigError, MapError, PluginError
 from pathloom.files import LARGEST_MAP
 from pathloom.grid import OccupancyGrid, labels, read_map
-from pathloom.kernel.component import Component, Count, Whole
+from pathloom.kernel.component import Component, Count, Unit, Whole
 from pathloom.kernel.registry import Registry, default_registry
 from pathloom.naming import closest
 from pathloom.paths.context import Corners
@@ -46,11 +46,12 @@ class MapFamily(Map, ABC):
     Named ``FAMILY-SIZE:OBSTACLES:sSEED``, for example ``random-20:75:s3``.
     """
 
-    size: Count = 20
-    """Height and width, in cells."""
+    size: Annotated[Count, Unit("cells")] = 20
+    """Height and width."""
     obstacles: str = ""
     """A number of cells, or a share such as ``20%``; rooms and mazes: cells between walls. Empty: the family's own."""
     seed: Whole = 0
+    """Which of the maps that are as large and as full."""
 
     usual: ClassVar[str] = "20%"
     """What empty ``obstacles`` stands for."""

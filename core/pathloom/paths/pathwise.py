@@ -1,15 +1,16 @@
 """Path-wise bases: operators written for one path at a time, in plain Python.
 
 The loop works on whole populations; these bases take its rows apart and put
-them together again. What a path-wise operator returns is checked: a path that
-leaves the map, loses start or goal, or collides is dropped, its parent kept,
-and the failure counted.
+them together again, all rows at once, so that the operator's own code is what
+costs. What a path-wise operator returns is checked: a path that leaves the map,
+loses start or goal, or collides is dropped, its parent kept, and the failure
+counted.
 """
 
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,7 @@ from pathloom.kernel.evaluation import Floats, Objective
 from pathloom.kernel.operators import Crossover, Indices, Mutation, Repair, Sampling
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.representation import Population
-from pathloom.paths.cell_paths import Path, flat_ids
+from pathloom.paths.cell_paths import Path, cells_of
 from pathloom.paths.problem import PathProblem
 
 
@@ -44,13 +45,16 @@ class PathSampling(Sampling):
         paths: list[NDArray[Any]] = []
         failed = 0
         while len(paths) < n and failed < self.tries:
-            drawn = self.sample_one(it, rng)
-            if drawn is not None and legal([drawn], it, self)[0]:
-                paths.append(without_repeats(drawn))
-                failed = 0
-            else:
-                count("samples failed")
-                failed += 1
+            # No more at once than may be wanted, whatever becomes of them.
+            drawn = [self.sample_one(it, rng) for _ in range(min(n - len(paths), self.tries - failed))]
+            legal = iter(_checked([path for path in drawn if path is not None], it, self).legal.tolist())
+            for path in drawn:
+                if path is not None and next(legal):
+                    paths.append(without_repeats(np.asarray(path)))
+                    failed = 0
+                else:
+                    count("samples failed")
+                    failed += 1
         return it.representation.encode(paths)
 
 
@@ -68,11 +72,11 @@ class PathCrossover(Crossover):
 
     def cross(self, population: Population, pairs: Indices, problem: Problem, rng: np.random.Generator) -> Population:
         it = path_problem(problem)
-        decode = it.representation.decode
-        children: dict[int, NDArray[Any]] = {}
-        for x, y in pairs.tolist():
-            children[x], children[y] = self.cross_one(decode(population[x]), decode(population[y]), it, rng)
-        return _with(population, children, it, self, "crossover failed")
+        parents = iter(paths_of(population, pairs.ravel(), it))
+        children: list[Any] = []
+        for mother, father in zip(parents, parents, strict=True):
+            children += self.cross_one(mother, father, it, rng)
+        return _with(population, pairs.ravel(), children, it, self, "crossover failed")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,8 +92,8 @@ class PathMutation(Mutation):
 
     def apply(self, population: Population, chosen: Indices, problem: Problem, rng: np.random.Generator) -> Population:
         it = path_problem(problem)
-        children = {int(k): self.mutate(it.representation.decode(population[k]), it, rng) for k in chosen}
-        return _with(population, children, it, self, "mutation failed")
+        children = [self.mutate(path, it, rng) for path in paths_of(population, chosen, it)]
+        return _with(population, chosen, children, it, self, "mutation failed")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,12 +109,10 @@ class PathRepair(Repair):
 
     def apply(self, population: Population, problem: Problem, rng: np.random.Generator) -> Population:
         it = path_problem(problem)
-        repaired = {}
-        for k, row in enumerate(population):
-            path = self.repair(it.representation.decode(row), it, rng)
-            if path is not None:
-                repaired[k] = path
-        return _with(population, repaired, it, self, "repair failed")
+        every = np.arange(len(population))
+        found = [self.repair(path, it, rng) for path in paths_of(population, every, it)]
+        changed = [k for k, path in enumerate(found) if path is not None]
+        return _with(population, every[changed], [found[k] for k in changed], it, self, "repair failed")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,13 +127,23 @@ class PathObjective(Objective):
 
     def measure(self, population: Population, problem: Problem) -> Floats:
         it = path_problem(problem)
-        return np.array([self.measure_one(it.representation.decode(row), it) for row in population], np.float64)
+        every = paths_of(population, np.arange(len(population)), it)
+        return np.array([self.measure_one(path, it) for path in every], np.float64)
 
 
 def path_problem(problem: Problem) -> PathProblem:
     """Return the problem, which is one of paths: the planner has seen to that before the first step."""
     assert isinstance(problem, PathProblem), "operators on cells are only composed for path problems"
     return problem
+
+
+def paths_of(population: Population, rows: Indices, problem: PathProblem) -> list[Path]:
+    """Return the paths (k, 2) of some rows of a population, each an array of its own to write into."""
+    chosen = population[rows]
+    inside = chosen >= 0
+    cells = cells_of(chosen[inside], problem.context.cols)
+    ends = inside.sum(axis=1).cumsum().tolist()
+    return [cells[first:last] for first, last in zip([0, *ends], ends, strict=False)]
 
 
 def without_repeats(path: NDArray[Any]) -> NDArray[Any]:
@@ -141,8 +153,19 @@ def without_repeats(path: NDArray[Any]) -> NDArray[Any]:
     return path[np.concatenate(([True], (path[1:] != path[:-1]).any(axis=1)))]
 
 
-def legal(paths: Sequence[Any], problem: PathProblem, owner: Any) -> NDArray[np.bool_]:
-    """Return for each path whether it leads from start to goal over free cells along free segments.
+class _Checked(NamedTuple):
+    """Paths, one behind the other, and which of them lead from start to goal over free segments."""
+
+    ids: NDArray[np.int32]
+    """(k,), the flat ids of all their cells."""
+    of: NDArray[np.intp]
+    """(k,), which path each cell belongs to."""
+    legal: NDArray[np.bool_]
+    """(n,)."""
+
+
+def _checked(paths: Sequence[Any], problem: PathProblem, owner: Any) -> _Checked:
+    """Return the cells of n paths, and for each path whether it leads from start to goal over free segments.
 
     Raises
     ------
@@ -150,46 +173,50 @@ def legal(paths: Sequence[Any], problem: PathProblem, owner: Any) -> NDArray[np.
         If a path is no (k, 2) array of integers.
     """
     it = problem.context
-    ok = np.zeros(len(paths), np.bool_)
-    first: list[NDArray[Any]] = []
-    second: list[NDArray[Any]] = []
-    of: list[NDArray[Any]] = []
-    ends = np.array(problem.ends)
-    for k, path in enumerate(paths):
-        cells = np.asarray(path)
-        if cells.ndim != 2 or cells.shape[1] != 2 or cells.dtype.kind not in "iu":
-            wanted = "wanted a path as an int array of shape (k, 2)"
-            raise PluginError(f"{owner.kind} {owner.name!r}: {wanted}; got {cells.dtype} {cells.shape}")
-        if len(cells) == 0 or (cells[0] != ends[0]).any() or (cells[-1] != ends[1]).any():
-            continue
-        if (cells < 0).any() or (cells[:, 0] >= it.rows).any() or (cells[:, 1] >= it.cols).any():
-            continue
-        ids = flat_ids(cells, it.cols)
-        ok[k] = True
-        first.append(ids[:-1])
-        second.append(ids[1:])
-        of.append(np.full(len(ids) - 1, k))
-    if first:
-        free = compiled.segments.segments_free(
-            it.blocked, it.cols, np.concatenate(first), np.concatenate(second), it.policy
-        )
-        ok[np.concatenate(of)[~free]] = False
-    return ok
+    arrays = [_cells(path, owner) for path in paths]
+    lengths = np.array([len(path) for path in arrays], np.intp)
+    of = np.arange(len(arrays)).repeat(lengths)
+    if len(of) == 0:
+        return _Checked(np.empty(0, np.int32), of, np.zeros(len(arrays), np.bool_))
+    rows, cols = np.concatenate(arrays).T
+    ids = (rows * it.cols + cols).astype(np.int32)
+    on_the_map = (rows >= 0) & (rows < it.rows) & (cols >= 0) & (cols < it.cols)
+    last = lengths.cumsum() - 1  # of an empty path: the cell before it, which does not count
+    legal = (lengths > 0) & (ids[last - lengths + 1 - (lengths == 0)] == it.start) & (ids[last] == it.goal)
+    legal[of[~on_the_map]] = False
+    tested = legal[of]
+    from_, to = ids[:-1], ids[1:]
+    segment = (of[1:] == of[:-1]) & tested[1:]
+    free = compiled.segments.segments_free(it.blocked, it.cols, from_[segment], to[segment], it.policy)
+    legal[of[1:][segment][~free]] = False
+    return _Checked(ids, of, legal)
+
+
+def _cells(path: Any, owner: Any) -> NDArray[np.int64]:
+    """Return what an operator returned as a path, if it is one."""
+    cells = path if isinstance(path, np.ndarray) else np.asarray(path)
+    if cells.ndim != 2 or cells.shape[1] != 2 or cells.dtype.kind not in "iu":
+        wanted = "wanted a path as an int array of shape (k, 2)"
+        raise PluginError(f"{owner.kind} {owner.name!r}: {wanted}; got {cells.dtype} {cells.shape}")
+    return cells.astype(np.int64, copy=False)
 
 
 def _with(
-    population: Population, changed: dict[int, NDArray[Any]], problem: PathProblem, owner: Any, event: str
+    population: Population, rows: Indices, paths: Sequence[Any], problem: PathProblem, owner: Any, event: str
 ) -> Population:
-    """Return the population with some rows changed, where the new path is legal."""
-    if not changed:
+    """Return the population with other paths in some of its rows, as far as they are legal."""
+    if len(paths) == 0:
         return population
-    ok = legal(list(changed.values()), problem, owner)
-    count(event, int((~ok).sum()))
-    good = {k: without_repeats(np.asarray(p)) for (k, p), fine in zip(changed.items(), ok, strict=True) if fine}
-    width = max([population.shape[1], *(len(p) for p in good.values())])
+    ids, of, legal = _checked(paths, problem, owner)
+    count(event, len(legal) - int(legal.sum()))
+    kept = legal[of]
+    kept[1:] &= (ids[1:] != ids[:-1]) | (of[1:] != of[:-1])  # cells that directly follow themselves are named once
+    ids, of = ids[kept], of[kept]
+    lengths = np.bincount(of, minlength=len(legal))
+    place = np.arange(len(of)) - (lengths.cumsum() - lengths)[of]
+    width = max(population.shape[1], int(lengths.max()))
     out = np.full((len(population), width), -1, np.int32)
     out[:, : population.shape[1]] = population
-    for k, path in good.items():
-        out[k] = -1
-        out[k, : len(path)] = flat_ids(path, problem.context.cols)
+    out[rows[legal]] = -1
+    out[rows[of], place] = ids
     return out

@@ -76,6 +76,11 @@ class PathProblem(Problem):
         (r0, c0), (r1, c1) = self.ends
         return Context(occupied, self.corners, r0 * self.grid.width + c0, r1 * self.grid.width + c1)
 
+    @property
+    def fingerprint(self) -> str:
+        grid = self.grid
+        return repr((grid.sha256, grid.resolution, grid.origin, self.ends, self.radius, self.corners))
+
     @cached_property
     def representation(self) -> CellPaths:
         return CellPaths(rows=self.grid.height, cols=self.grid.width)

@@ -7,7 +7,7 @@ import msgspec
 import numpy as np
 
 from pathloom import compiled
-from pathloom.kernel.component import NonNegative, Share, Whole
+from pathloom.kernel.component import NonNegative, Share, Unit, Whole
 from pathloom.kernel.counting import count
 from pathloom.kernel.operators import Indices, Mutation
 from pathloom.kernel.problem import Problem
@@ -33,8 +33,8 @@ class Reroute(Mutation):
     rate: Share = 0.5
     longest: Annotated[int, msgspec.Meta(ge=2, le=2**31 - 1)] = 100
     """Most steps of the stretch."""
-    margin: Whole = 12
-    """How far from the stretch's bounding box the new way may lead, in cells, at most; mostly it is less."""
+    margin: Annotated[Whole, Unit("cells")] = 12
+    """How far from the stretch's bounding box the new way may lead, at most; mostly it is less."""
     spread: NonNegative = 1.0
     """A cell stretches the length of a step by at most this share."""
     near: NonNegative = 1.0

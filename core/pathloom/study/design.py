@@ -25,12 +25,15 @@ MOST_VARIANTS = 4096
 
 @dataclass(frozen=True)
 class Variant:
-    """One method of a study."""
+    """One method of a study. Nobody watches its runs, which may be many at a time: the study keeps what they did."""
 
     name: str
     planner: Planner
     changes: Mapping[str, str] = field(default_factory=dict)
     """What it has in place of the base's own, by slot; ``none`` where it goes without."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "planner", self.planner.unwatched)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from pathloom import compiled
-from pathloom.kernel.component import NonNegative, Positive
+from pathloom.kernel.component import Distance, NonNegative, Positive
 from pathloom.kernel.evaluation import Floats
 from pathloom.kernel.representation import Population
 from pathloom.kernel.state import Deme
@@ -64,7 +64,7 @@ class AntSystem(PheromoneUpdate):
 
     source: ClassVar[str] = f"{DORIGO}, ant-cycle"
 
-    q: Positive = 1.0
+    q: Distance = 1.0
     """Q, in cells."""
 
     def deposits(self, state: ColonyState, progress: float) -> tuple[Population, Floats]:
@@ -77,7 +77,7 @@ class MaxMin(PheromoneUpdate):
 
     source: ClassVar[str] = STUETZLE
 
-    q: Positive = 1.0
+    q: Distance = 1.0
     """Q, in cells."""
     who: Literal["iteration", "ever"] = "iteration"
     """Whether the best of the iteration or the best so far leaves pheromone."""
