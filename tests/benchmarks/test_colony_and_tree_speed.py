@@ -52,7 +52,7 @@ def test_compiled_ants_are_at_least_fifteen_times_as_fast(problem):
 
 def test_the_plain_ants_find_paths_as_good(problem):
     planner = compose("aco", termination=[{"use": "max-generations", "limit": 12}])
-    ours = [1 / run(problem, planner, seed).state.best.fitness for seed in range(9)]
+    ours = [1 / run(problem, planner, seed).state.best.fitness for seed in range(40)]
     theirs = [PlainAco(problem.grid.occupied.tolist(), *problem.ends, seed).run(12) for seed in range(4)]
     assert abs(statistics.median(ours) / statistics.median(theirs) - 1) < 0.05
 
