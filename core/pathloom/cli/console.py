@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from typing import Any
 
 from rich.console import Console
@@ -83,7 +83,10 @@ def compiling(*, quiet: bool) -> Iterator[None]:
 
 @contextmanager
 def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], None]]:
-    """Give a function that is told every state, and shows progress when the work takes long."""
+    """Give a function that is told every state, and shows progress when the work takes long.
+
+    What an operator prints meanwhile goes to standard error: standard output is for the result.
+    """
     console = err()
     bar = _bar(console)
     task = bar.add_task(planner.name, total=1.0)
@@ -100,7 +103,8 @@ def planning(planner: Planner, *, quiet: bool) -> Iterator[Callable[[State], Non
         )
 
     try:
-        yield watch
+        with redirect_stdout(sys.stderr):
+            yield watch
     finally:
         _stop(bar)
 

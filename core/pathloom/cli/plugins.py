@@ -1,13 +1,14 @@
 """``pathloom plugins``: list and show what is installed."""
 
 import inspect
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from pathloom.cli import Group, asking
 from pathloom.cli.plugins_check import check
-from pathloom.errors import ConfigError
+from pathloom.errors import ConfigError, PluginWarning
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,7 +36,9 @@ def list_(kind: str | None, as_json: bool) -> None:
     from pathloom.naming import closest
 
     registry = default_registry()
-    broken = registry.broken()
+    with warnings.catch_warnings(record=True) as remarks:
+        warnings.simplefilter("always", PluginWarning)
+        broken = registry.broken()
     entries = list(registry.all_entries())
     kinds = {e.component.kind for e in entries}
     if kind is not None and kind not in kinds:
@@ -54,7 +57,13 @@ def list_(kind: str | None, as_json: bool) -> None:
     ]
     rows.sort(key=lambda row: (row["kind"], row["name"]))
     if as_json:
-        console.print_json({"components": rows, "broken": {k: str(v) for k, v in broken.items()}})
+        console.print_json(
+            {
+                "components": rows,
+                "broken": {k: str(v) for k, v in broken.items()},
+                "remarks": [str(remark.message) for remark in remarks],
+            }
+        )
         return
     table = Table(box=None, pad_edge=False)
     for head in ("kind", "name", "what it is"):
@@ -68,6 +77,8 @@ def list_(kind: str | None, as_json: bool) -> None:
         source = registry.source(namespace)
         if not source.ours and namespace not in broken:
             console.out().print(f"{source}")
+    for remark in remarks:
+        console.out().print(f"remark: {remark.message}", style="yellow", soft_wrap=True)
     for cause in broken.values():
         console.out().print(f"broken: {cause}", style="red", soft_wrap=True)
 

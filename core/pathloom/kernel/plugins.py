@@ -127,9 +127,7 @@ def _registered(source: Source) -> list[type[Component]]:
 def _check_component(component: object) -> None:
     shown = getattr(component, "__qualname__", repr(component))
     if isinstance(component, Component):
-        raise PluginError(
-            f"registers {shown}, which is a component: register its class, {type(component).__qualname__}"
-        )
+        raise PluginError(f"registers {shown}, which is no class: register {type(component).__qualname__}")
     if not isinstance(component, type) or not issubclass(component, Component):
         raise PluginError(f"registers {shown}, which inherits from no kind of component")
     if not component.kind:
