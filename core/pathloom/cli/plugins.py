@@ -29,8 +29,6 @@ command.add_command(check)
 @asking.JSON
 def list_(kind: str | None, as_json: bool) -> None:
     """List plugins and components, broken plugins with their cause."""
-    from rich.table import Table
-
     from pathloom.cli import console
     from pathloom.kernel.registry import default_registry
     from pathloom.naming import closest
@@ -65,14 +63,7 @@ def list_(kind: str | None, as_json: bool) -> None:
             }
         )
         return
-    table = Table(box=None, pad_edge=False)
-    for head in ("kind", "name", "what it is"):
-        table.add_column(head, no_wrap=head != "what it is")
-    before = None
-    for row in rows:
-        table.add_row(row["kind"] if row["kind"] != before else "", row["name"], row["about"])
-        before = row["kind"]
-    console.out().print(table)
+    console.out().print("\n".join(_listed(rows, console.out().width)), soft_wrap=True)
     for namespace in registry.namespaces:
         source = registry.source(namespace)
         if not source.ours and namespace not in broken:
@@ -81,6 +72,22 @@ def list_(kind: str | None, as_json: bool) -> None:
         console.out().print(f"remark: {remark.message}", style="yellow", soft_wrap=True)
     for cause in broken.values():
         console.out().print(f"broken: {cause}", style="red", soft_wrap=True)
+
+
+def _listed(rows: list[dict[str, Any]], width: int) -> list[str]:
+    """Return the lines of a table of kinds, names and what they are; rich's own takes a second for some hundreds."""
+    from textwrap import wrap
+
+    heads = {"kind": "kind", "name": "name", "about": "what it is"}
+    kinds, names = (max(len(row[column]) for row in (heads, *rows)) for column in ("kind", "name"))
+    lines, before = [], None
+    for row in (heads, *rows):
+        kind = row["kind"] if row["kind"] != before else ""
+        first, *others = wrap(row["about"], max(width - kinds - names - 2, 20)) or [""]
+        lines.append(f"{kind:{kinds}} {row['name']:{names}} {first}".rstrip())
+        lines += [" " * (kinds + names + 2) + line for line in others]
+        before = row["kind"]
+    return lines
 
 
 @command.command("show")
