@@ -5,7 +5,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from typing import Any
 
@@ -115,6 +115,13 @@ def counting(what: str, total: int, *, quiet: bool) -> Iterator[Callable[[str], 
         yield next_is
     finally:
         _stop(bar)
+
+
+@contextmanager
+def searching() -> Iterator[Callable[[bool], None]]:
+    """Do as `between_generations`, and keep standard output for the result: what an operator prints goes beside it."""
+    with redirect_stdout(sys.stderr), between_generations() as check:
+        yield check
 
 
 @contextmanager
