@@ -104,10 +104,11 @@ def _document(entry: "Entry", registry: "Registry") -> dict[str, Any]:
     """Return all that a component declares of itself."""
     from pathloom.kernel.component import parameters
     from pathloom.kernel.compose import freeze
+    from pathloom.kernel.meaning import meanings_of
     from pathloom.kernel.planner import Planner
 
     component = entry.component
-    meanings = _field_docs(component)
+    meanings = meanings_of(component)
     document: dict[str, Any] = {
         "name": entry.name,
         "kind": component.kind,
@@ -197,27 +198,3 @@ def _default(value: Any, registry: Any) -> str:
     if isinstance(value, tuple):
         return ", ".join(_default(getattr(v, "objective", v), registry) for v in value) or "none"
     return str(value)
-
-
-def _field_docs(component: type) -> dict[str, str]:
-    """Return the docstrings that stand below the fields of a class and its bases."""
-    import ast
-    import textwrap
-    from itertools import pairwise
-
-    docs: dict[str, str] = {}
-    for base in reversed(component.__mro__):
-        try:
-            tree = ast.parse(textwrap.dedent(inspect.getsource(base))).body[0]
-        except (OSError, TypeError, SyntaxError):
-            continue
-        body = tree.body if isinstance(tree, ast.ClassDef) else []
-        for statement, text in pairwise(body):
-            if (
-                isinstance(statement, ast.AnnAssign)
-                and isinstance(statement.target, ast.Name)
-                and isinstance(text, ast.Expr)
-                and isinstance(text.value, ast.Constant)
-            ):
-                docs[statement.target.id] = " ".join(str(text.value.value).split())
-    return docs
