@@ -18,6 +18,7 @@ COMMANDS = {
     "study": "Show, resume and export what compare and ablate wrote.",
     "claims": "Measure again what the papers say.",
     "maps": "List, show, check and make maps.",
+    "studio": "Draw, drag and watch evolution in the browser.",
     "plugins": "List and show plugins and their components.",
 }
 """Each command's module in this folder, and what it is for."""
