@@ -7,7 +7,7 @@ const LEFT = 52, RIGHT = 8, TOP = 8, BOTTOM = 18;
 // What is drawn: `lines` gives, for a lane's frames, pairs of [colour, values]; `bands` a low and a high line.
 export const CHARTS = [
   { title: "Length of the best path", key: [], unit: "cells", own: true, lines: frames => [["lane", frames.map(f => f.length)]] },
-  { title: "Fitness", key: [["best", "best so far"], ["quiet", "mean"]], scaled: true,
+  { title: "Fitness", key: [["best", "best"], ["quiet", "mean"]], scaled: true,
     lines: frames => [["quiet", frames.map(f => f.mean)], ["best", frames.map(f => f.fitness)]] },
   { title: "Operator probabilities", key: [["path", "crossover"], ["mean", "mutation"]], range: [0, 1],
     lines: frames => [["path", frames.map(f => f.rates.crossover?.[1])], ["mean", frames.map(f => f.rates.mutation?.[1])]],
@@ -51,7 +51,7 @@ export class Chart {
     const range = what.range ?? extent([...lines.flatMap(line => line.values), optimum]);
     const x = k => LEFT + (width - LEFT - RIGHT) * k / this.most;
     const y = (value, [low, high]) => TOP + (height - TOP - BOTTOM) * (1 - (value - low) / (high - low || 1));
-    this.#axes(context, width, height, relative ? null : range, y, it);
+    this.#axes(context, width, height, relative || !used.length ? null : range, y, it);
     for (const lane of used) {
       for (const [colour, triples] of what.bands?.(seen(lane)) ?? []) this.#band(context, triples, x, v => y(v, range), it[colour]);
     }
@@ -92,8 +92,7 @@ export class Chart {
     title.textContent = what.title;
     const rest = document.createElement("span");
     rest.className = "quiet";
-    const scale = what.scaled && used.length > 1 ? "each on its own scale" : "";
-    rest.append(now || scale);
+    rest.append(now);
     const keys = [...what.key, ...(optimum === undefined ? [] : [["optimum", "shortest there is"]])];
     for (const [colour, word] of keys) {
       const key = document.createElement("span");
@@ -119,11 +118,12 @@ export class Chart {
       this.#path(context, [[LEFT, at], [width - RIGHT, at]]);
       if (range) context.fillText(shown(range[0] + share * (range[1] - range[0])), LEFT - 6, at);
     }
+    if (!range && this.most > 1) for (const [k, word] of ["each on", "its own", "scale"].entries()) context.fillText(word, LEFT - 6, TOP + 24 + 14 * k);
     context.textBaseline = "alphabetic";
     context.textAlign = "left";
     context.fillText("0", LEFT, height - 4);
     context.textAlign = "right";
-    context.fillText(`generation ${this.most}`, width - RIGHT, height - 4);
+    context.fillText(range || this.most > 1 ? `generation ${this.most}` : "generations", width - RIGHT, height - 4);
   }
 
   #band(context, triples, x, y, colour) {

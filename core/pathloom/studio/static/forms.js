@@ -187,14 +187,17 @@ export class PlannerForm {
   }
 
   #slots(field, table, here) {
-    const list = Array.isArray(table[field.name]) ? table[field.name] : (table[field.name] = []);
+    const list = Array.isArray(table[field.name]) ? table[field.name] : [];
     const members = list.map((member, number) => {
       const select = this.#choice(field.kind, member, false, name => { list[number] = this.#fresh(field.kind, name); this.#changed(true); });
       const away = element("button", { type: "button", title: "Leave it out", ariaLabel: `Leave out ${words(field.name)} ${number + 1}` }, "✕");
       away.addEventListener("click", () => { list.splice(number, 1); this.#changed(true); });
       return element("div", { className: "fields" }, element("div", { className: "member" }, select, away), ...this.#parts(field.kind, member, `${here}.${number}`));
     });
-    const add = this.#adding(this.kinds[field.kind], `add to ${words(field.name)} …`, name => { list.push(this.#fresh(field.kind, name)); this.#changed(true); });
+    const add = this.#adding(this.kinds[field.kind], `add to ${words(field.name)} …`, name => {
+      table[field.name] = [...list, this.#fresh(field.kind, name)];
+      this.#changed(true);
+    });
     return this.#foldable(here, "part", `${words(field.name)}: ${list.map(member => last(member.use)).join(", ") || "none"}`, [...members, add]);
   }
 
@@ -207,7 +210,7 @@ export class PlannerForm {
   // Objectives
 
   #terms(field, table, here) {
-    const terms = table[field.name] === "none" || !table[field.name] ? (table[field.name] = {}) : table[field.name];
+    const terms = typeof table[field.name] === "object" ? table[field.name] : {};
     const rows = Object.entries(terms).flatMap(([label, term]) => {
       const weight = element("input", { id: this.#id(), type: "number", min: "0", step: "any", value: term.weight ?? 1, title: "Weight", ariaLabel: `Weight of ${label}` });
       weight.addEventListener("change", () => {
@@ -217,14 +220,18 @@ export class PlannerForm {
         this.#changed();
       });
       const away = element("button", { type: "button", title: "Leave it out", ariaLabel: `Leave out ${label}` }, "✕");
-      away.addEventListener("click", () => { delete terms[label]; this.#changed(true); });
+      away.addEventListener("click", () => {
+        delete terms[label];
+        if (field.optional && !Object.keys(terms).length) table[field.name] = "none";
+        this.#changed(true);
+      });
       const name = element("label", { htmlFor: weight.id, title: this.#form("objective", term.use)?.about ?? "" }, label);
       return [element("div", { className: "term" }, name, weight, away), ...this.#parts("objective", term, `${here}.${label}`)];
     });
     const add = this.#adding(this.kinds.objective, "add an objective …", name => {
       let label = last(name);
       while (terms[label]) label += "-again";
-      terms[label] = { weight: 1, ...this.#fresh("objective", name) };
+      table[field.name] = { ...terms, [label]: { weight: 1, ...this.#fresh("objective", name) } };
       this.#changed(true);
     });
     return element("div", { className: "fields" }, ...rows, add);

@@ -109,6 +109,7 @@ function words({ lane, name, status, answer }) {
   if (!lane.isAnswerAt(player.position)) return said(frame.best.length ? `Best so far: ${shown(frame.length, 3)} cells long; ${objectives}` : "No path yet.");
   const { result } = lane.answer;
   if (result.status !== "found") return said(`No path: ${result.reason}.`);
+  if (lane.answer.front) return said(`${lane.answer.front.values.length} trade-offs, each proven free: choose one by its dot.`);
   const gap = result.gap?.any_angle;
   const against = gap === null || gap === undefined ? "" : gap < 1e-9 ? "; no path is shorter" : `; ${shown(100 * gap, 2)} % longer than the shortest path there is`;
   said(`Answer, proven free: ${shown(result.metrics.length, 3)} cells long, ${result.metrics.turns} turns${against}.`);

@@ -18,7 +18,10 @@ export class Stage {
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => this.#lift());
     canvas.addEventListener("contextmenu", event => event.preventDefault());
     canvas.addEventListener("keydown", event => this.#key(event));
-    canvas.addEventListener("focus", () => { this.cursor ??= [...this.scene.start]; this.onlook?.(); });
+    canvas.addEventListener("focus", () => {
+      if (canvas.matches(":focus-visible")) this.cursor ??= [...scene.start];
+      this.onlook?.();
+    });
     canvas.addEventListener("blur", () => { this.cursor = null; this.onlook?.(); });
   }
 
