@@ -15,6 +15,7 @@ import pytest
 PORT = 8617
 TOKEN = "the-token-of-the-tests"
 HOME = f"http://127.0.0.1:{PORT}"
+SOCKET = f"ws://127.0.0.1:{PORT}/live"
 MISSING = "the extra [studio] is not installed here, so that nobody asks the studio anything"
 
 
@@ -113,3 +114,8 @@ def write(folder: Path, name: str, text: str) -> Path:
     """Write a file for a test and return its path."""
     (folder / name).write_text(text, encoding="utf-8")
     return folder / name
+
+
+def moving_ai(*rows: str) -> str:
+    """Return a map in Moving AI's format."""
+    return f"type octile\nheight {len(rows)}\nwidth {len(rows[0])}\nmap\n" + "".join(f"{row}\n" for row in rows)

@@ -52,9 +52,9 @@ def test_files_of_maps_are_read_by_their_kind(client):
 
 
 def test_a_broken_file_is_refused_without_the_name_of_any_folder(client):
-    broken = {"files": {"broken.map": base64.b64encode(b"type hex\n").decode()}}
+    broken = {"files": {"broken.map": base64.b64encode(b"type hex\nheight 1\nwidth 1\nmap\n.\n").decode()}}
     message = told(client.post("/files", json=broken))["message"]
-    assert message.startswith("broken.map: line 1")
+    assert message.startswith("broken.map: line 1, column 6")
     assert "/" not in message.partition(":")[0]
 
 

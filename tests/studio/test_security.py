@@ -2,7 +2,7 @@
 
 import pytest
 
-from studio.conftest import HOME, PORT, TOKEN, scene
+from studio.conftest import HOME, PORT, SOCKET, TOKEN, scene
 
 ROUTES = ("/", "/colours.css", "/page/main.js", "/catalogue", "/no-such-thing")
 
@@ -35,14 +35,14 @@ def test_a_foreign_page_is_refused_even_with_the_cookie(client, origin):
     from starlette.websockets import WebSocketDisconnect
 
     assert client.post("/look", json=scene(), headers={"Origin": origin}).status_code == 403
-    with pytest.raises(WebSocketDisconnect), client.websocket_connect("/live", headers={"Origin": origin}):
+    with pytest.raises(WebSocketDisconnect), client.websocket_connect(SOCKET, headers={"Origin": origin}):
         pass
 
 
 def test_the_socket_wants_the_cookie(stranger):
     from starlette.websockets import WebSocketDisconnect
 
-    with pytest.raises(WebSocketDisconnect), stranger.websocket_connect("/live", headers={"Origin": HOME}):
+    with pytest.raises(WebSocketDisconnect), stranger.websocket_connect(SOCKET, headers={"Origin": HOME}):
         pass
 
 

@@ -161,7 +161,7 @@ class Refused(Struct, frozen=True, tag="refused"):
 Said = Begun | Compiling | Generation | Ended | Refused
 
 
-class Look(Struct, frozen=True, tag="look"):
+class Look(Struct, frozen=True):
     """What a glance at a scene tells, before any run."""
 
     fault: Refused | None
