@@ -156,6 +156,7 @@ def _table(properties: Schema, *required: str) -> Schema:
 
 
 def of_type(hint: Any) -> Schema:
+    """Return the JSON schema of a field's type."""
     if hint is Any or (isinstance(hint, type) and issubclass(hint, Component)):
         return {}
     if typing.get_origin(hint) is typing.Annotated and typing.get_origin(typing.get_args(hint)[0]) is tuple:

@@ -79,9 +79,7 @@ def studios() -> Iterator[Studio]:
 
     def start(*options: str) -> subprocess.Popen[str]:
         command = [sys.executable, "-m", "pathloom", "studio", "--port", "0", "--no-browser", *options]
-        process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8"
-        )
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8")
         started.append(process)
         return process
 

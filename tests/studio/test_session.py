@@ -100,7 +100,9 @@ def test_asking_far_ahead_is_bounded(client, monkeypatch):
     from pathloom.studio import lane
 
     kept = []
-    monkeypatch.setattr(lane.Lane, "more", lambda self, n, real=lane.Lane.more: (real(self, n), kept.append(self._wanted)))
+    monkeypatch.setattr(
+        lane.Lane, "more", lambda self, n, real=lane.Lane.more: (real(self, n), kept.append(self._wanted))
+    )
     with page(client) as socket:
         begin(socket, quick(generations=1000))
         for _ in range(20):
@@ -229,7 +231,7 @@ def test_a_new_run_silences_the_one_before(client):
         while said[-1]["type"] != "ended" or said[-1]["run"] != 2:
             said.append(heard(socket))
         assert "refused" not in {message["type"] for message in said}
-        first = [k for k, message in enumerate(said) if message["run"] == 2][0]
+        first = next(k for k, message in enumerate(said) if message["run"] == 2)
         assert all(message["run"] == 2 for message in said[first:])
 
 

@@ -37,5 +37,3 @@ def command(ctx: click.Context, /, port: int, no_browser: bool) -> None:
         serve(port, ready)
     except KeyboardInterrupt:  # the usual way to end it
         ctx.exit(DONE)
-
-

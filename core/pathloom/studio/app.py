@@ -1,7 +1,6 @@
 """The studio's routes: the page and its files, four questions, and the socket."""
 
 from collections.abc import Awaitable, Callable
-from functools import partial
 from importlib.resources import files
 from mimetypes import guess_type
 from typing import Any, TypeVar
@@ -40,7 +39,7 @@ def application(*, port: int, token: str) -> ASGIApp:
     """Return the studio as it listens on a port of 127.0.0.1, for whoever knows the token."""
     studio = _Studio()
     routes = [
-        Route("/", partial(_file, "index.html")),
+        Route("/", _index),
         Route("/colours.css", _colours),
         Route("/page/{name}", _named_file),
         Route("/catalogue", studio.catalogue),
@@ -60,7 +59,7 @@ class _Studio:
         self._workers, self._questions, self._open = Workers(), Workers(), 0
         self._catalogue: bytes | None = None
 
-    async def catalogue(self, request: Request) -> Response:
+    async def catalogue(self, _: Request) -> Response:
         """Answer with all forms; they are the same for as long as the server runs."""
         if self._catalogue is None:
             found = await self._questions.do(lambda: catalogue(default_registry()))
@@ -109,7 +108,7 @@ def _refused(error: Exception, status: int) -> Response:
     return Response(encode(refusal(error)), status, media_type="application/json")
 
 
-async def _file(name: str, request: Request) -> Response:
+def _file(name: str) -> Response:
     path = PAGE.get(name)
     if path is None:
         return PlainTextResponse("no such file\n", 404)
@@ -117,11 +116,15 @@ async def _file(name: str, request: Request) -> Response:
     return Response(path.read_bytes(), media_type=kind)
 
 
+async def _index(_: Request) -> Response:
+    return _file("index.html")
+
+
 async def _named_file(request: Request) -> Response:
-    return await _file(request.path_params["name"], request)
+    return _file(request.path_params["name"])
 
 
-async def _colours(request: Request) -> Response:
+async def _colours(_: Request) -> Response:
     """Answer with the colours of all pathloom's pictures as custom properties."""
     light, dark = _properties(LIGHT), _properties(DARK)
     css = (

@@ -38,7 +38,7 @@ def catalogue(registry: Registry) -> dict[str, Any]:
 def _form(entry: Entry, registry: Registry) -> dict[str, Any]:
     component = entry.component
     meanings = meanings_of(component)
-    fields = [_field(p, meanings.get(p.name, ""), registry) for p in parameters(component) if p.name != "observers"]
+    fields = [_field(p, meanings.get(p.name, "")) for p in parameters(component) if p.name != "observers"]
     form: dict[str, Any] = {
         "plugin": entry.source.namespace,
         "about": _about(component),
@@ -56,7 +56,7 @@ def _form(entry: Entry, registry: Registry) -> dict[str, Any]:
     return form
 
 
-def _field(parameter: Parameter, meaning: str, registry: Registry) -> dict[str, Any]:
+def _field(parameter: Parameter, meaning: str) -> dict[str, Any]:
     """Return one field: a slot for a component, a list of such slots, a table of objectives, or a value."""
     field: dict[str, Any] = {"name": parameter.name, "meaning": meaning, "optional": parameter.optional}
     if kind := parameter.slot:

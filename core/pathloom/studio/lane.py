@@ -2,7 +2,9 @@
 
 import asyncio
 import time
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Callable, Coroutine
+from contextlib import suppress
+from typing import Any
 
 from pathloom.compiled.jit import listening
 from pathloom.errors import ConfigError, PathloomError
@@ -20,7 +22,7 @@ from pathloom.paths.problem import PathProblem
 from pathloom.planning import asked_for, concluded, iterate
 from pathloom.studio.frame import frame_of, trade_offs
 from pathloom.studio.scene import reachable_problem_of, refusal
-from pathloom.studio.wire import WINDOW, Begin, Begun, Compiling, Ended, Front, Refused, Said
+from pathloom.studio.wire import WINDOW, Begin, Begun, Compiling, Ended, Front, Generation, Refused, Said
 from pathloom.studio.workers import Workers
 
 MOST_INDIVIDUALS = 5000
@@ -28,7 +30,7 @@ MOST_INDIVIDUALS = 5000
 EASY = 128 * 128
 """Cells of a map up to which an answer is held against the exact optimum, which takes a moment there."""
 
-Send = Callable[[Said], Awaitable[None]]
+Send = Callable[[Said], Coroutine[Any, Any, None]]
 
 
 class Lane:
@@ -38,6 +40,7 @@ class Lane:
         self.run = begin.run
         self._begin, self._workers, self._send = begin, workers, send
         self._wanted, self._wake = 0, asyncio.Event()
+        self._state: State | None = None
         self._task = asyncio.create_task(self._go())
 
     def more(self, generations: int) -> None:
@@ -64,24 +67,25 @@ class Lane:
 
     async def _search(self, lane: int, run: int) -> None:
         planner, problem = await self._workers.do(self._prepare)
-        await self._send(
-            Begun(lane, run, planner.name, list(planner.terms.labels), _most_generations(planner))
-        )
+        await self._send(Begun(lane, run, planner.name, list(planner.terms.labels), _most_generations(planner)))
         states = iterate(problem, planner, seed=self._begin.asked.seed)
         loop = asyncio.get_running_loop()
 
         def tell(done: int, of: int) -> None:
-            loop.call_soon_threadsafe(asyncio.ensure_future, self._send(Compiling(lane, run, done, of)))
+            with suppress(RuntimeError):  # the server has ended meanwhile
+                asyncio.run_coroutine_threadsafe(self._send(Compiling(lane, run, done, of)), loop)
 
-        last: State | None = None
-        while True:
+        def step() -> Generation | None:
+            with listening(tell):
+                state = next(states, None)
+            self._state = state or self._state
+            return None if state is None else frame_of(state, planner, problem, lane, run)
+
+        await self._asked()
+        while (frame := await self._workers.do(step)) is not None:
+            await self._send(frame)
             await self._asked()
-            state = await self._workers.do(lambda: _next(states, tell if last is None else None))
-            if state is None:
-                break
-            last = state
-            await self._send(frame_of(state, planner, problem, lane, run))
-        await self._send(await self._workers.do(lambda: self._conclude(problem, planner, last)))
+        await self._send(await self._workers.do(lambda: self._conclude(problem, planner)))
 
     async def _asked(self) -> None:
         while self._wanted == 0:
@@ -95,8 +99,8 @@ class Lane:
         _check_size(planner)
         return planner, reachable_problem_of(asked.scene)
 
-    def _conclude(self, problem: PathProblem, planner: Planner, state: State | None) -> Ended:
-        asked, began = self._begin.asked, time.perf_counter()
+    def _conclude(self, problem: PathProblem, planner: Planner) -> Ended:
+        asked, state, began = self._begin.asked, self._state, time.perf_counter()
         assert state is not None, "a run has one state at least"
         outcome = planner.result(state)
         phases = {"evolution": state.seconds, "refinement": time.perf_counter() - began, "loading": 0.0}
@@ -109,13 +113,6 @@ class Lane:
         return Ended(self._begin.lane, self._begin.run, path, curve, result.to_dict(), front)
 
 
-def _next(states: Iterator[State], tell: Callable[[int, int], None] | None) -> State | None:
-    if tell is None:
-        return next(states, None)
-    with listening(tell):
-        return next(states, None)
-
-
 def _most_generations(planner: Planner) -> int | None:
     limits = [one.limit for one in planner.termination if isinstance(one, MaxGenerations)]
     return min(limits, default=None)
@@ -123,9 +120,10 @@ def _most_generations(planner: Planner) -> int | None:
 
 def _check_size(component: Component) -> None:
     """Refuse populations that nobody could look at, wherever they stand in a planner."""
-    size = getattr(component, "population", 0)
-    if isinstance(size, int) and size > MOST_INDIVIDUALS:
-        raise ConfigError(f"planner: population: found {size}, allowed here at most {MOST_INDIVIDUALS}")
+    for name in ("population", "ants"):
+        size = getattr(component, name, 0)
+        if isinstance(size, int) and size > MOST_INDIVIDUALS:
+            raise ConfigError(f"planner: {name}: found {size}, allowed here at most {MOST_INDIVIDUALS}")
     for _, part in members(component):
         _check_size(part)
 

@@ -23,7 +23,7 @@ POLICY = (
 )
 """Content security policy: nothing but the studio's own files, and its own socket."""
 
-NO_TOKEN = (
+UNKNOWN = (
     "pathloom studio: this address lacks its token. Open the whole address that `pathloom studio` printed; "
     "from then on links with a map in them work as well.\n"
 )
@@ -56,7 +56,7 @@ class Guard:
         elif self._knows_in_cookie(headers):
             await self._app(scope, receive, self._speaking(send, host))
         else:
-            await self._refuse(NO_TOKEN, scope, receive, send)
+            await self._refuse(UNKNOWN, scope, receive, send)
 
     def _knows_in_query(self, scope: Scope) -> bool:
         given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
@@ -84,9 +84,7 @@ class Guard:
                 headers["Cross-Origin-Resource-Policy"] = "same-origin"
                 headers["Cache-Control"] = "no-store"
                 if cookie:
-                    headers.append(
-                        "Set-Cookie", f"{self._cookie}={self._token}; Path=/; HttpOnly; SameSite=Strict"
-                    )
+                    headers.append("Set-Cookie", f"{self._cookie}={self._token}; Path=/; HttpOnly; SameSite=Strict")
             await send(message)
 
         return speak

@@ -35,7 +35,7 @@ def serve(port: int, ready: Callable[[str], None]) -> None:
         port, token = listener.getsockname()[1], new_token()
         config = uvicorn.Config(
             application(port=port, token=token), log_level="error", access_log=False, lifespan="off",
-            ws_max_size=LARGEST_MESSAGE, timeout_graceful_shutdown=1, server_header=False,
+            ws_max_size=LARGEST_MESSAGE, timeout_graceful_shutdown=1, ws_per_message_deflate=False, server_header=False,
         )  # fmt: skip
         ready(f"http://{HOST}:{port}/?token={token}")
         uvicorn.Server(config).run(sockets=[listener])

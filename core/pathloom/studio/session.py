@@ -4,6 +4,7 @@ import asyncio
 from contextlib import suppress
 
 import msgspec
+from starlette.types import Message
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pathloom.studio.lane import Lane
@@ -30,7 +31,7 @@ class Session:
             for lane in self._lanes.values():
                 lane.stop()
 
-    async def _hear(self, event: dict[str, object]) -> None:
+    async def _hear(self, event: Message) -> None:
         if event["type"] == "websocket.disconnect":
             raise WebSocketDisconnect
         text = event.get("text")

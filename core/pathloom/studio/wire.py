@@ -5,7 +5,7 @@ Everything that comes in is checked against these types before anything else see
 
 from typing import Annotated, Any, Literal
 
-from msgspec import Meta, Struct, convert, field, json
+from msgspec import Meta, Struct, json
 
 from pathloom.paths.context import Corners
 
@@ -199,7 +199,7 @@ class Saved(Struct, frozen=True):
     map: str | None = None
 
 
-_heard = json.Decoder(Heard)
+_heard: json.Decoder[Heard] = json.Decoder(Heard)
 encode = json.Encoder().encode
 
 
@@ -212,10 +212,3 @@ def heard(text: str) -> Heard:
         If it is none of them.
     """
     return _heard.decode(text)
-
-
-__all__ = [
-    "LONGEST_SIDE", "WINDOW", "Asked", "Begin", "Begun", "Cell", "Compiling", "Drawn", "Ended", "Files", "Front",
-    "Generation", "Heard", "Ids", "Look", "Map", "More", "Named", "Number", "Refused", "Said", "Saved", "Scene",
-    "Stop", "convert", "encode", "field", "heard",
-]  # fmt: skip

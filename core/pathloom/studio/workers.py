@@ -39,7 +39,7 @@ class Workers:
             value, error = None, None
             try:
                 value = work()
-            except BaseException as raised:  # noqa: BLE001 - raised again where it is waited for
+            except BaseException as raised:
                 error = raised
             with suppress(RuntimeError):  # the server has ended meanwhile
                 loop.call_soon_threadsafe(settle, value, error)

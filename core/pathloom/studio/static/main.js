@@ -214,7 +214,7 @@ for (const lane of lanes) lane.addEventListener("change", () => {
   if (lane.answer) $("said").textContent = `${forms[lane.index].name} has ended: ${lane.answer.result.status}`;
   redraw();
 });
-player.addEventListener("change", redraw);
+player.addEventListener("change", () => { transport(); redraw(); });
 
 // Saving and sharing
 

@@ -58,7 +58,7 @@ export class Player extends EventTarget {
     if (!this.playing) return;
     const ahead = this.speed === Infinity ? 12 : 3;
     this.active.forEach(lane => lane.reach(this.position + ahead));
-    this.#due += this.#before === null ? 1 : (now - this.#before) * this.speed / 1000;
+    this.#due += this.#before === null ? 1 : this.speed === Infinity ? ahead : (now - this.#before) * this.speed / 1000;
     this.#before = now;
     let moved = false;
     while (this.#due >= 1 && this.#isThere(this.position + 1) && this.position < this.#last) {
