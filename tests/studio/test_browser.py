@@ -338,7 +338,7 @@ def test_runs_of_60_individuals_and_150_generations_leave_no_memory_behind(open_
         metrics = {entry["name"]: entry["value"] for entry in devtools.send("Performance.getMetrics")["metrics"]}
         return metrics["JSHeapUsedSize"]
 
-    first, *others = [used() for _ in range(4)]
+    first, *others = [used() for _ in range(3)]
     assert max(others) < first + 2**20
 
 

@@ -1,5 +1,6 @@
 """The command: one line with the address, and a clean end."""
 
+import json
 import re
 import signal
 import socket
@@ -9,13 +10,15 @@ import urllib.request
 
 import pytest
 
-from studio.conftest import MISSING
+from studio.conftest import MISSING, scene
 
 pytest.importorskip("uvicorn", reason=MISSING)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to one process")
 def test_it_prints_its_address_answers_there_and_ends_at_ctrl_c(studios):
+    from websockets.sync.client import connect
+
     studio = studios()
     address = studio.stdout.readline()
     assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{32}\n", address)
@@ -23,8 +26,12 @@ def test_it_prints_its_address_answers_there_and_ends_at_ctrl_c(studios):
         assert b"<title>pathloom studio</title>" in answer.read()
     with pytest.raises(urllib.error.HTTPError, match="403"):
         urllib.request.urlopen(address.partition("?")[0])
-    studio.send_signal(signal.SIGINT)
-    out, err = studio.communicate(timeout=20)
+    asked = {"scene": scene(), "planner": {"use": "imga"}}
+    with connect(address.strip().replace("http", "ws").replace("/?", "/live?")) as page:
+        page.send(json.dumps({"type": "begin", "lane": 0, "run": 1, "asked": asked}))
+        assert json.loads(page.recv())["type"] == "begun"
+        studio.send_signal(signal.SIGINT)  # in the midst of a run, with a page open
+        out, err = studio.communicate(timeout=20)
     assert (studio.returncode, out, err) == (0, "", "")
 
 

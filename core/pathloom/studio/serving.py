@@ -24,14 +24,12 @@ def serve(port: int, ready: Callable[[str], None]) -> None:
     PathloomError
         If the port is taken, or not to be had.
     """
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listener:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            listener.bind((HOST, port))
-            listener.listen()
-        except OSError as error:
-            found = f"--port: found {port}, which is not to be had ({error.strerror or error})"
-            raise PathloomError(f"{found}; another one, or 0, takes a free one") from error
+    try:
+        listener = socket.create_server((HOST, port))
+    except OSError as error:
+        found = f"--port: found {port}, which is not to be had ({error.strerror or error})"
+        raise PathloomError(f"{found}; another one, or 0, takes a free one") from error
+    with listener:
         port, token = listener.getsockname()[1], new_token()
         config = uvicorn.Config(
             application(port=port, token=token), log_level="error", access_log=False, lifespan="off",
