@@ -86,14 +86,31 @@ def plan(
         return Result(status="unreachable", reason=no_way(problem), **facts)
 
     finished, phases = searched(problem, composed, seed, time_limit, watch)
+    return concluded(problem, composed, finished, phases, facts, smooth=wanted, optimum=optimum)
+
+
+def concluded(
+    problem: PathProblem,
+    planner: Planner,
+    finished: Run,
+    phases: dict[str, float],
+    facts: dict[str, Any],
+    *,
+    smooth: Smoother | None = None,
+    optimum: bool = False,
+) -> Result:
+    """Return the result of a finished run: its answer verified, measured, and held against the optimum.
+
+    ``facts``: what was asked for, from `asked_for`.
+    """
     state, outcome = finished.state, finished.outcome
     path, unrefined, reason = _verified(problem, outcome.solution, outcome.found, outcome.reason)
     facts["interrupted"] = finished.interrupted
-    polyline, chosen = None, wanted
-    if isinstance(composed, PolylinePlanner) and state is not None:
-        polyline, chosen = composed.polyline(state), wanted or composed.smoothing
+    polyline, chosen = None, smooth
+    if isinstance(planner, PolylinePlanner) and state is not None:
+        polyline, chosen = planner.polyline(state), smooth or planner.smoothing
     if path is not None:
-        facts |= _facts_of(path, polyline, problem, composed)
+        facts |= _facts_of(path, polyline, problem, planner)
         if chosen is not None:
             with interruptible(facts):
                 facts["curve"], fault, phases = _smoothed(

@@ -134,7 +134,7 @@ class _Writer:
             if parameter.slots is not None:
                 return {"anyOf": [{"type": "array", "items": one}, one]}
             return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
-        one = {"$ref": "#/$defs/terms"} if parameter.own_type is Terms else _of_type(parameter.hint)
+        one = {"$ref": "#/$defs/terms"} if parameter.own_type is Terms else of_type(parameter.hint)
         return {"anyOf": [one, {"const": NONE}]} if parameter.optional else one
 
     def _terms(self) -> tuple[Schema, Schema]:
@@ -175,7 +175,8 @@ def _table(properties: Schema, *required: str) -> Schema:
     return {"type": "object", "properties": properties, "required": [*required], "additionalProperties": False}
 
 
-def _of_type(hint: Any) -> Schema:
+def of_type(hint: Any) -> Schema:
+    """Return the JSON schema of a field's type."""
     if hint is Any or (isinstance(hint, type) and issubclass(hint, Component)):
         return {}
     if typing.get_origin(hint) is typing.Annotated and typing.get_origin(typing.get_args(hint)[0]) is tuple:

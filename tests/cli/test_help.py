@@ -3,10 +3,23 @@
 import subprocess
 import sys
 
-COMMANDS = ["", "plan", "pareto", *(f"maps {c}" for c in ("", "list", "show", "check", "make"))]
+COMMANDS = ["", "plan", "pareto", "studio", *(f"maps {c}" for c in ("", "list", "show", "check", "make"))]
 COMMANDS += [f"plugins {c}" for c in ("", "list", "show", "schema", "cite")]
 
-HEAVY = ["numba", "scipy", "numpy", "matplotlib", "pluggy", "rich", "PIL", "sklearn", "pymoo", "moocore"]
+HEAVY = [
+    "numba",
+    "scipy",
+    "numpy",
+    "matplotlib",
+    "pluggy",
+    "rich",
+    "PIL",
+    "sklearn",
+    "pymoo",
+    "moocore",
+    "starlette",
+    "uvicorn",
+]
 HEAVY += ["pathloom_imga", "pathloom_baselines", "pathloom_maps", "pathloom.kernel", "pathloom.compiled"]
 
 SCRIPT = f"""

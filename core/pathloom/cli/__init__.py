@@ -21,6 +21,7 @@ COMMANDS = {
     "study": "Show, resume and export what compare and ablate wrote.",
     "claims": "Measure again what the papers say.",
     "maps": "List, show, check and make maps.",
+    "studio": "Draw, drag and watch evolution in the browser.",
     "plugins": "List, show, cite, check and begin plugins.",
 }
 """Each command's module in this folder, and what it is for."""
