@@ -82,7 +82,7 @@ def schema_of(parameter: Parameter) -> Schema:
         return {"kind": kind.kind, "many": parameter.slots is not None, "optional": parameter.optional}
     if parameter.own_type is Terms:
         return {"kind": Objective.kind, "many": True, "optional": parameter.optional}
-    return _of_type(parameter.hint)
+    return of_type(parameter.hint)
 
 
 class _Writer:

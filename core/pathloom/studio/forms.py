@@ -4,7 +4,7 @@ import inspect
 from typing import Any
 
 from pathloom.errors import ConfigError
-from pathloom.kernel.component import Parameter, parameters
+from pathloom.kernel.component import Parameter, meanings, parameters
 from pathloom.kernel.compose import compose, freeze
 from pathloom.kernel.evaluation import Terms
 from pathloom.kernel.front import FrontPlanner
