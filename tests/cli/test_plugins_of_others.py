@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+import pathloom as pl
+
 from .conftest import Outcome, one_line, timeless
 from .distributions import distribution
 
@@ -59,6 +61,22 @@ BROKEN = {
     "stranger": (f"{HEAD}class Jitter:\n    pass\n{REGISTER}", "registers Jitter, which inherits from no kind"),
     "hookless": (f"{HEAD}{JITTER}", "has no function `register` marked with `pathloom.hookimpl`"),
     "misnamed": (f"{HEAD}{JITTER}{REGISTER.replace('def register', 'def regster')}", "regster"),
+    "object": (f"{HEAD}{JITTER}{REGISTER.replace('Jitter', 'Jitter()')}", "which is no class: register Jitter"),
+    "torn": (
+        HEAD + JITTER.replace("    reach", "    kind = 'selection'\n    reach") + REGISTER,
+        "registers Jitter, which is of several kinds: selection, mutation",
+    ),
+    "vague": (
+        HEAD + JITTER.replace("reach: int", "reach: 'Reach'") + REGISTER,
+        "registers Jitter, whose fields cannot be read: NameError: name 'Reach' is not defined",
+    ),
+    "ahead": (
+        "from pathloom import Teleport\n",
+        f"cannot import name 'Teleport' from 'pathloom' ({pl.__file__}); pathloom {pl.__version__} has no such name",
+    ),
+    "ahead-too": ("import pathloom\npathloom.Teleport\n", f"; pathloom {pl.__version__} has no such name"),
+    "deeper": ("import pathloom.teleport\n", f"; pathloom {pl.__version__} has no such name"),
+    "future": ("print('imported')\n", f"is built for pathloom >=99; installed is {pl.__version__}"),
     "thrower": (f"{HEAD}@pl.hookimpl\ndef register(add):\n    raise KeyError('no luck')\n", "no luck"),
 }
 
@@ -68,7 +86,11 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with broken plugins, two of one name, one that claims our name, and one that works."""
     site = tmp_path_factory.mktemp("site")
     for name, (source, _) in BROKEN.items():
-        distribution(site, f"acme-{name}", version="2.5", points={name: f"m_{name}"}, modules={f"m_{name}": source})
+        module = f"m_{name.replace('-', '_')}"
+        requires = ["numpy", "pathloom>=99" if name == "future" else "pathloom>=0", "pathloom>=98; python_version<'3'"]
+        distribution(
+            site, f"acme-{name}", version="2.5", points={name: module}, modules={module: source}, requires=requires
+        )
     distribution(site, "acme", points={"acme": "acme_parts"}, modules={"acme_parts": MARK + HEAD + JITTER + REGISTER})
     for name in ("left-twin", "right-twin"):
         module = name.replace("-", "_")
@@ -77,8 +99,9 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return site
 
 
-def run(site: Path | None, *args: str, mark: bool = False) -> Outcome:
+def run(site: Path | None, *args: str, mark: bool = False, **more: str) -> Outcome:
     environment = {**os.environ, **({"MARK": "1"} if mark else {}), **({"PYTHONPATH": str(site)} if site else {})}
+    environment |= more
     done = subprocess.run(
         [sys.executable, "-m", "pathloom", *args],
         capture_output=True,
@@ -194,3 +217,32 @@ def test_a_part_of_another_is_shown_with_its_parameters(site: Path) -> None:
     shown = run(site, "plugins", "show", "acme/jitter").out
     assert shown.startswith("acme/jitter, mutation, plugin 'acme' (acme 1.0)\nLeave everything as it is.\n")
     assert "reach" in shown
+
+
+@pytest.fixture(scope="module")
+def slow_site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a plugin whose import does not end, and one that prints when it is imported and when it is used."""
+    site = tmp_path_factory.mktemp("slow-site")
+    stuck = "import time\nprint('before')\ntime.sleep(1000)\n"
+    talker = "print('hello\\nthere')\n" + HEAD + JITTER.replace("return", "print('moving'); return") + REGISTER
+    for name, source in (("stuck", stuck), ("talker", talker)):
+        distribution(site, f"acme-{name}", version="2.5", points={name: f"m_{name}"}, modules={f"m_{name}": source})
+    return site
+
+
+def test_a_plugin_whose_import_does_not_end_is_given_up_and_one_that_prints_is_remarked(slow_site: Path) -> None:
+    document = run(slow_site, "plugins", "list", "--json", PATHLOOM_PLUGIN_SECONDS="1.5").document
+    cause = document["broken"]["stuck"]
+    assert cause.startswith("plugin 'stuck' (acme-stuck 2.5): is still not imported after 1.5 s, at ")
+    assert "m_stuck.py:3: time.sleep(1000)" in cause
+    assert document["remarks"] == ["plugin 'talker' (acme-talker 2.5): prints when it is imported: 'hello\\nthere\\n'"]
+    assert "talker/jitter" in {row["name"] for row in document["components"]}
+
+
+def test_what_a_plugin_prints_when_it_is_imported_or_used_does_not_reach_the_document(slow_site: Path) -> None:
+    words = ("plan", "--map", "random-12:20", "--json", "--planner", "imga", "--set", "mutation=talker/jitter")
+    told = run(slow_site, *words)
+    assert told.document["status"] == "found"
+    first, *others = told.err.splitlines()
+    assert first == "pathloom: plugin 'talker' (acme-talker 2.5): prints when it is imported: 'hello\\nthere\\n'"
+    assert set(others) == {"moving"}

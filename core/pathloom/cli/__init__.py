@@ -3,6 +3,9 @@
 import io
 import os
 import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -75,7 +78,8 @@ def main() -> None:
     _make_output_safe()
     output = sys.stdout
     try:
-        code = pathloom.main(prog_name="pathloom", standalone_mode=False)
+        with _warnings_in_one_line():
+            code = pathloom.main(prog_name="pathloom", standalone_mode=False)
         sys.stdout.flush()
     except PathloomError as error:
         code = _say(str(error), BAD_INPUT)
@@ -107,6 +111,26 @@ def main() -> None:
             shown = f"a defect, please report it: {type(error).__name__}: {error}"
             code = _say(f"{shown} (PATHLOOM_TRACEBACK=1 shows where)", DEFECT)
     sys.exit(code or DONE)
+
+
+@contextmanager
+def _warnings_in_one_line() -> Iterator[None]:
+    """Say what is wrong with a plugin that works as any other message; other warnings are as they were."""
+    from pathloom.errors import PluginWarning
+
+    shown_before = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, PluginWarning):
+            _say(str(message), DONE)
+        else:
+            shown_before(message, category, *where, **more)
+
+    warnings.showwarning = show
+    try:
+        yield
+    finally:
+        warnings.showwarning = shown_before
 
 
 def _make_output_safe() -> None:

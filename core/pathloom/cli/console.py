@@ -5,7 +5,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import replace
 from typing import Any
 
@@ -94,6 +94,13 @@ def watched(planner: Planner, *, quiet: bool) -> Planner:
     if quiet:
         return replace(planner, observers=tuple(one for one in planner.observers if one not in showing))
     return planner if showing else replace(planner, observers=(*planner.observers, Progress(patience=PATIENCE)))
+
+
+@contextmanager
+def printing_aside() -> Iterator[None]:
+    """Let what an operator prints go to standard error: standard output is for the result."""
+    with redirect_stdout(sys.stderr):
+        yield
 
 
 @contextmanager

@@ -68,7 +68,7 @@ def _run(
     from pathloom.multiobjective import pareto
 
     asked = config.front
-    with console.between_generations() as check:
+    with console.printing_aside(), console.between_generations() as check:
 
         def watch(state: Any) -> None:
             check(planner.done(state))

@@ -59,7 +59,7 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
 
     frames: list[Any] = []
     animated = bool(options["plot"]) and Path(options["plot"]).suffix.lower() == ".gif"
-    with console.between_generations() as check:
+    with console.printing_aside(), console.between_generations() as check:
 
         def watch(state: Any) -> None:
             if animated:

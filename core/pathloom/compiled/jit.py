@@ -15,11 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from numba import njit as _njit
-
 Kernel = Callable[..., Any]
-
-njit: Any = _njit  # its annotations leave options out
 
 USUAL = ("random", "rows", "segments", "measures", "insertion", "exchange", "identity")
 """Modules that most runs load: their kernels make up the work that is announced, with the family asked for."""
@@ -70,6 +66,9 @@ def listening(listener: Listener) -> Iterator[None]:
 
 
 def _compiled(signature: str, function: Kernel) -> Kernel:
+    import numba  # by far the most of what importing pathloom would take: whoever only lists plugins does without
+
+    njit: Any = numba.njit  # its annotations leave options out
     began = time.perf_counter()
     try:
         kernel = njit(signature, cache=True, nogil=True, no_cfunc_wrapper=True)(function)

@@ -7,6 +7,7 @@ not come to an end, or prints.
 """
 
 import importlib.metadata
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -67,12 +68,18 @@ def installed() -> Iterator[Source]:
 def _source(point: importlib.metadata.EntryPoint) -> Source:
     if (dist := point.dist) is None:
         return Source(point.name, point.load, module=point.module)
-    about = dist.metadata  # read anew each time that it is asked for
-    name = about["Name"]
+    name, version = _name_and_version(dist)
     return Source(
-        point.name, point.load, name, about["Version"], ours=name == "pathloom", module=point.module,
+        point.name, point.load, name, version, ours=name == "pathloom", module=point.module,
         requirements=lambda: dist.requires or (),
     )  # fmt: skip
+
+
+def _name_and_version(dist: importlib.metadata.Distribution) -> tuple[str, str]:
+    """Return what ``dist.name`` and ``dist.version`` are, each of which would parse all of the metadata."""
+    head = (dist.read_text("METADATA") or "").partition("\n\n")[0]
+    found = dict(re.findall(r"^(Name|Version): *(\S+)", head, re.MULTILINE))
+    return found.get("Name") or dist.name, found.get("Version") or dist.version
 
 
 def components_of(source: Source) -> list[type[Component]]:
@@ -127,9 +134,7 @@ def _registered(source: Source) -> list[type[Component]]:
 def _check_component(component: object) -> None:
     shown = getattr(component, "__qualname__", repr(component))
     if isinstance(component, Component):
-        raise PluginError(
-            f"registers {shown}, which is a component: register its class, {type(component).__qualname__}"
-        )
+        raise PluginError(f"registers {shown}, which is no class: register {type(component).__qualname__}")
     if not isinstance(component, type) or not issubclass(component, Component):
         raise PluginError(f"registers {shown}, which inherits from no kind of component")
     if not component.kind:

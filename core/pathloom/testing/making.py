@@ -73,7 +73,9 @@ def _registry_with(components: tuple[type[Component], ...]) -> Registry:
             for component in components:
                 add(component)
 
-    return Registry([*installed(), Source("tried", lambda: Module)])
+    registry = Registry([*installed(), Source("tried", lambda: Module)])
+    registry.entries("tried")  # from now on it knows their names
+    return registry
 
 
 def _parts(component: Component) -> Iterator[Component]:
