@@ -1,7 +1,6 @@
 """``pathloom plugins check``, and the same as tests of pytest: a package of somebody else against the contract."""
 
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -109,19 +108,10 @@ def test_an_unknown_package_is_refused_with_the_one_probably_meant(refused) -> N
     )
 
 
-def shown(language: str, containing: str) -> str:
-    """Return the block of the guide that contains a text."""
-    guide = (Path(__file__).parents[2] / "plugins" / "README.md").read_text(encoding="utf-8")
-    blocks = re.findall(rf"^```{language}\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
-    (block,) = (block for block in blocks if containing in block)
-    return block
-
-
-def test_pytest_makes_one_test_of_each_promise_as_the_guide_shows(site: Path, tmp_path: Path) -> None:
-    (tmp_path / "conftest.py").write_text(shown("python", "pytest_plugins = "))
-    (tmp_path / "pyproject.toml").write_text(shown("toml", "pathloom = ").replace("acme", "bad"))
-    (tmp_path / "test_contract.py").write_text(shown("python", "def test_the_contract"))
-    words = ("-q", "-p", "no:cacheprovider", "-k", "silent or shape or inputs-kept")
+def test_pytest_makes_one_test_of_each_promise(site: Path, tmp_path: Path) -> None:
+    (tmp_path / "pyproject.toml").write_text('[tool.pytest.ini_options]\npathloom = "bad"\n')
+    (tmp_path / "test_contract.py").write_text("def test_the_contract(promise):\n    promise()\n")
+    words = ("-q", "-p", "pathloom.testing.pytest", "-p", "no:cacheprovider", "-k", "silent or shape or inputs-kept")
     done = run(site, *words, module="pytest", folder=tmp_path)
     assert done.code == 1
     assert "2 failed, 1 passed" in done.out
