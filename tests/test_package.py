@@ -1,15 +1,12 @@
-"""The package as a whole: its public names, its start-up, and a folder of ours as somebody else's plugin."""
+"""The package as a whole: its public names and its start-up."""
 
 import ast
 import inspect
-import json
 import os
 import shutil
 import subprocess
 import sys
 from pathlib import Path
-
-import pytest
 
 import pathloom as pl
 import pathloom_imga
@@ -58,34 +55,3 @@ def test_a_kernel_that_cannot_be_cached_is_compiled_all_the_same(tmp_path):
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == ["0", "NullCache"]
-
-
-@pytest.fixture
-def copied(tmp_path):
-    """Our folder of IMGA under another name, installed as a distribution of its own."""
-    site = tmp_path / "site"
-    shutil.copytree(
-        Path(pathloom_imga.__file__).parent, site / "copied_imga", ignore=shutil.ignore_patterns("__pycache__")
-    )
-    for file in (site / "copied_imga").glob("*.py"):
-        file.write_text(file.read_text().replace("pathloom_imga", "copied_imga"))
-    info = site / "copied-1.2.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: copied\nVersion: 1.2\n")
-    (info / "entry_points.txt").write_text("[pathloom]\ncopied = copied_imga\n")
-    return {**os.environ, "PYTHONPATH": str(site)}
-
-
-def pathloom(*arguments, env):
-    return subprocess.run(
-        [sys.executable, "-m", "pathloom", *arguments], env=env, capture_output=True, text=True, check=False
-    )
-
-
-def test_a_copy_of_our_folder_is_a_plugin(copied):
-    same = ("plan", "--map", "iga-map1", "--corners", "allow", "--seed", "7", "--json")
-    ours = json.loads(pathloom(*same, "--planner", "imga", env=copied).stdout)
-    theirs = json.loads(pathloom(*same, "--planner", "copied/imga", env=copied).stdout)
-    assert theirs["path"] == ours["path"]
-    assert theirs["config"]["planner"]["use"] == "copied/imga"
-    assert "copied 1.2" in pathloom("plugins", "list", env=copied).stdout

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from pathloom.paths.vectors.decoding import Decoder
     from pathloom.paths.vectors.planner import VectorPlanner, VectorState
     from pathloom.paths.vectors.swarm import Swarm
-    from pathloom.planning import compose, freeze, iterate, load_state, plan
+    from pathloom.planning import compose, freeze, iterate, load_state, part, plan
     from pathloom.result import Result
     from pathloom.study import Study, ablate, compare
     from pathloom.study.tuning.experiment import tune
@@ -99,7 +99,7 @@ _HOME = {
     "paths.problem": ("PathProblem",),
     "paths.vectors.swarm": ("Swarm",),
     "paths.vectors.planner": ("VectorPlanner", "VectorState"),
-    "planning": ("compose", "freeze", "iterate", "load_state", "plan"),
+    "planning": ("compose", "freeze", "iterate", "load_state", "part", "plan"),
     "result": ("Result",),
     "study": ("Study", "ablate", "compare"),
     "study.tuning.experiment": ("tune",),
@@ -209,6 +209,7 @@ __all__ = [
     "load_state",
     "octile_path",
     "pareto",
+    "part",
     "plan",
     "tune",
     "validate",

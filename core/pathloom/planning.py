@@ -16,7 +16,7 @@ from pathloom.exact.curves import validate_curve
 from pathloom.files import FilePath
 from pathloom.kernel import compose as composition
 from pathloom.kernel import storing
-from pathloom.kernel.compose import compose, freeze
+from pathloom.kernel.compose import compose, freeze, part
 from pathloom.kernel.planner import Planner
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.registry import default_registry
@@ -29,7 +29,7 @@ from pathloom.paths.metrics import metrics
 from pathloom.paths.problem import PathProblem
 from pathloom.result import Result, Status, describe_problem, versions
 
-__all__ = ["compose", "freeze", "iterate", "load_state", "plan"]
+__all__ = ["compose", "freeze", "iterate", "load_state", "part", "plan"]
 
 
 def plan(

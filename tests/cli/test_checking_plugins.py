@@ -108,11 +108,10 @@ def test_an_unknown_package_is_refused_with_the_one_probably_meant(refused) -> N
     )
 
 
-def test_pytest_makes_one_test_of_each_promise_where_it_is_asked_to(site: Path, tmp_path: Path) -> None:
-    (tmp_path / "conftest.py").write_text('pytest_plugins = ["pathloom.testing.pytest"]\n')
-    (tmp_path / "pytest.ini").write_text("[pytest]\npathloom = bad\n")
+def test_pytest_makes_one_test_of_each_promise(site: Path, tmp_path: Path) -> None:
+    (tmp_path / "pyproject.toml").write_text('[tool.pytest.ini_options]\npathloom = "bad"\n')
     (tmp_path / "test_contract.py").write_text("def test_the_contract(promise):\n    promise()\n")
-    words = ("-q", "-p", "no:cacheprovider", "-k", "silent or shape or inputs-kept")
+    words = ("-q", "-p", "pathloom.testing.pytest", "-p", "no:cacheprovider", "-k", "silent or shape or inputs-kept")
     done = run(site, *words, module="pytest", folder=tmp_path)
     assert done.code == 1
     assert "2 failed, 1 passed" in done.out

@@ -1,8 +1,11 @@
 """Every check finds what it is for: a component that breaks one promise breaks no other."""
 
+from pathlib import Path
+
 import pytest
 
 from pathloom.testing import CHECKS, Broken, Inapplicable, checks_for
+from pathloom.testing.contract import MADE
 
 from .broken import BROKEN, Careless, Wheel
 
@@ -26,6 +29,12 @@ def test_a_component_that_breaks_one_promise_breaks_no_other(component) -> None:
     assert list(found) == [component.name]
     assert found[component.name].startswith("expected ")
     assert "found" in found[component.name]
+
+
+def test_the_guide_names_every_promise() -> None:
+    guide = (Path(__file__).parents[2] / "plugins" / "README.md").read_text(encoding="utf-8")
+    for check in (MADE, *CHECKS):
+        assert f"| `{check.name}` | {check.promise} |\n" in guide
 
 
 def test_there_is_one_for_every_check() -> None:

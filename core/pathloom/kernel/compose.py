@@ -44,6 +44,17 @@ def compose(planner: "str | Mapping[str, Any] | Planner", *, registry: Registry 
     return refine(base, slots, registry, "planner") if slots else base
 
 
+def part(kind: type[C], what: "str | Mapping[str, Any] | C", *, registry: Registry | None = None) -> C:
+    """Return the component of a kind that a name, or a table with ``use`` as in a config, stands for.
+
+    Raises
+    ------
+    ConfigError
+        If there is none, a field is unknown, or a value out of range.
+    """
+    return build(kind, what, registry or default_registry(), kind.kind)
+
+
 def build(kind: type[C], value: Any, registry: Registry, where: str) -> C:
     """Return the component that a config value stands for: a component, a name or a table with ``use``."""
     if isinstance(value, kind):

@@ -121,6 +121,13 @@ def _of_runs(planner: Callable[[Any], Planner], use: Callable[..., Any], states:
     return calls
 
 
+def _watched(component: Observer, *given: Any) -> list[None]:
+    """Return what an observer says to each state of a run that it watches from beginning to end."""
+    states = given[:-1]
+    with component.watch(states[0].problem, _generic(component)) as tell:
+        return [tell(state) for state in states]
+
+
 def _population(*more: Any) -> Callable[[Place], tuple[Any, ...]]:
     """Return what gives a population, then whatever else is handed in, and the problem."""
 
@@ -277,7 +284,7 @@ _CALLS: dict[type[Component], Calls] = {
     Weighting: _weighed,
     Collision: _on_maps(_segments, lambda c, a, b, problem, rng: c.segments_free(a, b, problem)),
     Termination: _of_runs(_generic, lambda c, *given: [(c.done(s), c.progress(s)) for s in given[:-1]], 3),
-    Observer: _of_runs(_generic, lambda c, *given: [c.observe(state) for state in given[:-1]], 3),
+    Observer: _of_runs(_generic, _watched, 3),
     Map: _map,
     Smoother: _on_maps(_octile, lambda c, path, problem, rng: c.smooth(path, problem), few=True),
     Decoder: _on_maps(lambda place: (place.problem(), 1), _decoded),
