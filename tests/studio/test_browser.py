@@ -139,7 +139,7 @@ def test_a_wall_is_drawn_and_the_path_avoids_it_here_and_on_the_command_line(ope
     page.says(".answer", "Answer, proven free")
 
     config, drawn = page.saved("config", tmp_path), page.saved("map", tmp_path)
-    page.says("#map-note", "")
+    page.says("#note", "")
     expected = np.zeros((12, 12), bool)
     expected[:11, 6] = True
     assert np.array_equal(pl.load_map(drawn).occupied, expected)
@@ -297,7 +297,7 @@ def test_a_link_holds_map_planners_and_seed_and_a_damaged_one_says_so(open_page,
     page.fill("#seed", "11")
     page.settle("iga/iga")
     page.click("#share")
-    page.says("#map-note", "seed")
+    page.says("#note", "seed")
     link = page.url
     assert "token" not in link
     assert "#studio1." in link
@@ -307,7 +307,7 @@ def test_a_link_holds_map_planners_and_seed_and_a_damaged_one_says_so(open_page,
     assert page.inner_text(".stage .name >> nth=0") == "iga"
     assert "3 rows and 6 columns" in page.locator(".stage canvas").first.get_attribute("aria-label")
     page.evaluate("location.hash = '#studio1.AAAA'")
-    page.says("#map-note", "damaged")
+    page.says("#note", "damaged")
     assert "3 rows" in page.locator(".stage canvas").first.get_attribute("aria-label")
 
 
