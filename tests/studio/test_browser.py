@@ -20,7 +20,8 @@ class Page:
     def __init__(self, page: Any, address: str) -> None:
         from playwright.sync_api import expect
 
-        self.page, self.address, self.expect = page, address, expect
+        expect.set_options(timeout=30_000)
+        self.page, self.expect = page, expect
         self.errors: list[str] = []
         self.asked: list[str] = []
         page.on("console", lambda said: said.type in ("error", "warning") and self.errors.append(said.text))
@@ -36,7 +37,7 @@ class Page:
         return getattr(self.page, name)
 
     def says(self, selector: str, text: Any) -> None:
-        self.expect(self.page.locator(selector).first).to_contain_text(text, timeout=30_000)
+        self.expect(self.page.locator(selector).first).to_contain_text(text)
 
     def take(self, rows: list[str], folder: Any) -> None:
         """Open a map from a file."""
@@ -139,7 +140,7 @@ def test_a_wall_is_drawn_and_the_path_avoids_it_here_and_on_the_command_line(ope
     page.says(".answer", "Answer, proven free")
 
     config, drawn = page.saved("config", tmp_path), page.saved("map", tmp_path)
-    page.says("#map-note", "")
+    page.says("#note", "")
     expected = np.zeros((12, 12), bool)
     expected[:11, 6] = True
     assert np.array_equal(pl.load_map(drawn).occupied, expected)
@@ -161,7 +162,9 @@ def test_a_run_is_paused_stepped_and_scrubbed(open_page, tmp_path):
     page.says("#generation", "generation 1 of 50")
     page.keyboard.press(".")
     page.says("#generation", "generation 2 of 50")
-    page.locator("body").press("p")
+    page.select_option("#speed", "6")
+    page.locator("#speed").blur()
+    page.keyboard.press("p")
     page.says("#run", "Pause")
     page.says("#generation", re.compile(r"generation ([5-9]|\d\d) of 50"))
     page.locator("body").press("p")
@@ -172,10 +175,10 @@ def test_a_run_is_paused_stepped_and_scrubbed(open_page, tmp_path):
     page.locator("#scrub").focus()
     page.keyboard.press("Home")
     page.says("#generation", "generation 0 of 50")
-    first = page.inner_text(".status >> nth=0")
+    page.says(".status", " 100 evaluations")
     page.keyboard.press("ArrowRight")
     page.says("#generation", "generation 1 of 50")
-    assert page.inner_text(".status >> nth=0") != first
+    page.says(".status", " 200 evaluations")
     page.run()
     page.says("#generation", "generation 50 of 50")
 
@@ -279,13 +282,14 @@ def test_a_dot_of_the_front_shows_its_path(open_page, tmp_path):
     page.run()
     front = page.locator(".chart.front canvas").first
     front.scroll_into_view_if_needed()
-    assert "knee" in page.inner_text(".chart.front p >> nth=0")
+    page.says(".chart.front p", "knee")
     before = page.locator(".stage canvas").first.evaluate("canvas => canvas.toDataURL()")
     front.focus()
     for _ in range(8):
         page.keyboard.press("ArrowLeft")
     page.says(".chart.front p", re.compile(r"^\d+ of \d+: length "))
-    assert page.locator(".stage canvas").first.evaluate("canvas => canvas.toDataURL()") != before
+    after = page.locator(".stage canvas").first.evaluate("canvas => canvas.toDataURL()")
+    assert after != before
     shown = np.loadtxt(page.saved("path", tmp_path), delimiter=",", skiprows=1, dtype=int)
     length = float(re.findall(r"length ([\d.]+)", page.inner_text(".chart.front p >> nth=0"))[0])
     assert np.hypot(*np.diff(shown, axis=0).T).sum() == pytest.approx(length, abs=1e-3)
@@ -297,7 +301,7 @@ def test_a_link_holds_map_planners_and_seed_and_a_damaged_one_says_so(open_page,
     page.fill("#seed", "11")
     page.settle("iga/iga")
     page.click("#share")
-    page.says("#map-note", "seed")
+    page.says("#note", "seed")
     link = page.url
     assert "token" not in link
     assert "#studio1." in link
@@ -307,7 +311,7 @@ def test_a_link_holds_map_planners_and_seed_and_a_damaged_one_says_so(open_page,
     assert page.inner_text(".stage .name >> nth=0") == "iga"
     assert "3 rows and 6 columns" in page.locator(".stage canvas").first.get_attribute("aria-label")
     page.evaluate("location.hash = '#studio1.AAAA'")
-    page.says("#map-note", "damaged")
+    page.says("#note", "damaged")
     assert "3 rows" in page.locator(".stage canvas").first.get_attribute("aria-label")
 
 
@@ -336,8 +340,8 @@ def test_runs_of_60_individuals_and_150_generations_leave_no_memory_behind(open_
         metrics = {entry["name"]: entry["value"] for entry in devtools.send("Performance.getMetrics")["metrics"]}
         return metrics["JSHeapUsedSize"]
 
-    first, *others = [used() for _ in range(3)]
-    assert max(others) < first + 2**20
+    first, second = used(), used()
+    assert second < first + 2**19  # half of what the frames of a run take
 
 
 def test_when_the_server_is_killed_the_page_says_so(studios, browser):
@@ -352,14 +356,16 @@ def test_when_the_server_is_killed_the_page_says_so(studios, browser):
     page.page.close()
 
 
-@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
-def test_nothing_is_wider_than_the_window_and_the_theme_is_the_systems(open_page, width, scheme):
-    page = open_page(width, 844, color_scheme=scheme)
+def test_nothing_is_wider_than_the_window_and_the_theme_is_the_systems(open_page):
+    page = open_page()
     page.check("#compare")
     for title in page.locator("summary", has_text="Operators").all():
         title.click()
-    assert page.evaluate("document.documentElement.scrollWidth") <= width
-    ground = sum(map(int, re.findall(r"\d+", page.evaluate("getComputedStyle(document.body).backgroundColor"))[:3]))
-    assert (ground < 120) is (scheme == "dark")
+    for width, scheme in ((1280, "light"), (390, "dark")):
+        page.set_viewport_size({"width": width, "height": 844})
+        page.emulate_media(color_scheme=scheme)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, re.findall(r"\d+", ground)[:3])) < 120) is (scheme == "dark")
     page.click("#theme")  # from auto to light
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"

@@ -23,6 +23,13 @@ def test_the_token_is_needed_once(stranger):
     assert stranger.get("/page/main.js").status_code == 200
 
 
+def test_cookies_of_other_servers_on_this_machine_do_no_harm(stranger):
+    others = 'a={"b": [1, 2]}; ünfinished="; =; ;'.encode().decode("latin-1")
+    cookie = f"{others} pathloom-studio-{PORT}={TOKEN}; pathloom-studio-{PORT + 1}=another"
+    assert stranger.get("/", headers={"Cookie": cookie.encode("latin-1")}).status_code == 200
+    assert stranger.get("/", headers={"Cookie": f"pathloom-studio-{PORT + 1}={TOKEN}"}).status_code == 403
+
+
 @pytest.mark.parametrize("host", ["evil.example", f"evil.example:{PORT}", "127.0.0.1", f"127.0.0.1:{PORT + 1}", ""])
 def test_a_foreign_host_is_refused_even_with_the_token(client, host):
     answer = client.get("/", params={"token": TOKEN}, headers={"Host": host})

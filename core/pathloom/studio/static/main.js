@@ -115,7 +115,13 @@ function words({ lane, name, status, answer }) {
   said(`Answer, proven free: ${shown(result.metrics.length, 3)} cells long, ${result.metrics.turns} turns${against}.`);
 }
 
-function tell(text) { $("said").textContent = text; $("map-note").textContent = text; }
+let told = null;
+function tell(text) {
+  clearTimeout(told);
+  $("note").textContent = text;
+  $("note").hidden = !text;
+  told = setTimeout(() => { $("note").hidden = true; }, 8000);
+}
 
 // Running
 
@@ -350,6 +356,7 @@ document.addEventListener("keydown", event => {
 });
 document.addEventListener("pointerdown", event => { for (const { menu } of views) if (!menu.contains(event.target)) menu.open = false; });
 window.addEventListener("hashchange", () => take(location.hash));
+window.addEventListener("resize", lay);
 new ResizeObserver(lay).observe($("view"));
 
 // Beginning
