@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from pathloom.kernel.representation import Population, Representation
     from pathloom.kernel.state import Deme, State
     from pathloom.kernel.termination import Termination
+    from pathloom.local import ClosedLoop, Episode, Examples, LearnedPolicy, Model, Policy, Rule, generate, read_examples
+    from pathloom.local.drivers.driver import Driver
     from pathloom.multiobjective import pareto
     from pathloom.paths.additive import Prices
     from pathloom.paths.ants.colony import Colony
@@ -83,6 +85,10 @@ _HOME = {
     "kernel.representation": ("Population", "Representation"),
     "kernel.state": ("Deme", "State"),
     "kernel.termination": ("Termination",),
+    "local": (
+        "ClosedLoop", "Episode", "Examples", "LearnedPolicy", "Model", "Policy", "Rule", "generate", "read_examples",
+    ),
+    "local.drivers.driver": ("Driver",),
     "multiobjective": ("pareto",),
     "paths.cell_paths": ("CellPaths", "Path"),
     "paths.collision": ("Collision",),
@@ -111,6 +117,7 @@ __all__ = [
     "Bench",
     "CellPaths",
     "Claim",
+    "ClosedLoop",
     "Collision",
     "Colony",
     "ColonyState",
@@ -124,7 +131,10 @@ __all__ = [
     "Deadlock",
     "Decoder",
     "Deme",
+    "Driver",
+    "Episode",
     "Evolution",
+    "Examples",
     "Fidelity",
     "Finding",
     "Fitness",
@@ -134,9 +144,11 @@ __all__ = [
     "Heuristic",
     "Indices",
     "InitialPheromone",
+    "LearnedPolicy",
     "Map",
     "MapError",
     "Migration",
+    "Model",
     "Mutation",
     "NonNegative",
     "Numbering",
@@ -157,6 +169,7 @@ __all__ = [
     "PheromoneUpdate",
     "Planner",
     "PluginError",
+    "Policy",
     "Population",
     "Positive",
     "Prices",
@@ -166,6 +179,7 @@ __all__ = [
     "Repair",
     "Representation",
     "Result",
+    "Rule",
     "Sampling",
     "Selection",
     "Share",
@@ -194,12 +208,14 @@ __all__ = [
     "exact_front",
     "freeze",
     "full_cell_cover",
+    "generate",
     "hookimpl",
     "iterate",
     "load_map",
     "octile_path",
     "pareto",
     "plan",
+    "read_examples",
     "tune",
     "validate",
     "write_map",

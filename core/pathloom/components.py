@@ -15,6 +15,16 @@ from pathloom.kernel.sampling import Mixed
 from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, Tournament
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnation, TargetFitness, WallTime
+from pathloom.local.classifiers import Classifier
+from pathloom.local.drivers.avoiding import Avoiding
+from pathloom.local.drivers.dynamic_window import DynamicWindow
+from pathloom.local.drivers.policy_alone import PolicyAlone
+from pathloom.local.drivers.pure_pursuit import PurePursuit
+from pathloom.local.driving import ClosedLoop
+from pathloom.local.hazards import Hazards
+from pathloom.local.robot import Robot
+from pathloom.local.rules import FourLeaves, WallFollower
+from pathloom.local.sensing import Ultrasound
 from pathloom.paths.ants.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
 from pathloom.paths.ants.colony import Colony
 from pathloom.paths.collision import Exact
@@ -46,6 +56,8 @@ def register(add: Add) -> None:
         BSpline, CubicBezier,
         Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,
         Rows, Waypoints,
+        FourLeaves, WallFollower, Classifier,
+        PurePursuit, Avoiding, PolicyAlone, DynamicWindow, ClosedLoop, Robot, Ultrasound, Hazards,
         MaxGenerations, MaxEvaluations, Stagnation, TargetFitness, WallTime,
     ):  # fmt: skip
         add(component)
