@@ -115,3 +115,17 @@ def wander(blocked, rows, cols, movers, velocities, still, x, y, radius, seconds
         if apart < size + radius and apart < before:
             continue
         movers[k, 0], movers[k, 1] = ahead_x, ahead_y
+
+
+@kernel("f8[::1](f8[:, :, ::1], f8[:, ::1])")
+def nearest_on_ways(places, points):
+    """Return for each of n ways, of s places each (n, s, 2), the distance to the nearest of points (m, 2); inf of none."""
+    nearest = np.empty(places.shape[0])
+    for n in range(places.shape[0]):
+        least = math.inf
+        for s in range(places.shape[1]):
+            for k in range(points.shape[0]):
+                across, along = places[n, s, 0] - points[k, 0], places[n, s, 1] - points[k, 1]
+                least = min(least, across * across + along * along)
+        nearest[n] = math.sqrt(least)
+    return nearest

@@ -54,7 +54,7 @@ class Hazards(Component):
     ) -> Surroundings:
         """Return the surroundings of a way (k, 2) for a robot of a radius, hazards in their first places; metres."""
         empty = Surroundings(grid, cell)
-        standing = self._placed(empty, self.standing, way, 0.3, 2.0 * radius + 0.1, rng)
+        standing = self._placed(empty, self.standing, way, 0.3, 2.0 * radius + 0.2, rng)
         moving = self._placed(Surroundings(grid, cell, standing), self.walking, way, 1.5, 0.0, rng)
         pace = rng.uniform(self.slowest, self.fastest, len(moving))
         angle = rng.uniform(-np.pi, np.pi, len(moving))

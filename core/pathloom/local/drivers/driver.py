@@ -46,9 +46,8 @@ class View:
     @cached_property
     def echoes(self) -> Floats:
         """(m, 2) where something was sensed: metres ahead of the robot, and to its left."""
-        found = self.readings[self.readings < self.reach]
-        there = self.readings < self.reach
-        return np.stack((found * _COS[there], found * _SIN[there]), axis=1)
+        heard = self.readings < self.reach
+        return np.stack((self.readings * _COS, self.readings * _SIN), axis=1)[heard]
 
     def blocked(self, margin: float) -> bool:
         """Say whether something was sensed within the robot's radius and a margin of the straight way to the target."""
@@ -57,6 +56,12 @@ class View:
         along, beside = ahead * cos + left * sin, np.abs(left * cos - ahead * sin)
         wide = self.robot.radius + margin
         return bool(((along > 0.0) & (along < self.distance + wide) & (beside < wide)).any())
+
+    def nears(self, motion: Motion, seconds: float, margin: float) -> bool:
+        """Say whether a motion takes the robot's rim nearer than a margin to something sensed, and nearer than it is."""
+        there = Pose(0.0, 0.0, 0.0).after(motion, seconds)
+        now, then = (np.hypot(*(self.echoes - place).T) for place in (np.zeros(2), np.array(there[:2])))
+        return bool(((then < self.robot.radius + margin) & (then < now)).any())
 
 
 @dataclass(frozen=True, kw_only=True)
