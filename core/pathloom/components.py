@@ -18,6 +18,7 @@ from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnati
 from pathloom.local.classifiers import Classifier
 from pathloom.local.drivers.avoiding import Avoiding
 from pathloom.local.drivers.dynamic_window import DynamicWindow
+from pathloom.local.drivers.guarded import Guarded
 from pathloom.local.drivers.policy_alone import PolicyAlone
 from pathloom.local.drivers.pure_pursuit import PurePursuit
 from pathloom.local.driving import ClosedLoop
@@ -57,7 +58,7 @@ def register(add: Add) -> None:
         Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,
         Rows, Waypoints,
         FourLeaves, WallFollower, Classifier,
-        PurePursuit, Avoiding, PolicyAlone, DynamicWindow, ClosedLoop, Robot, Ultrasound, Hazards,
+        PurePursuit, Avoiding, Guarded, PolicyAlone, DynamicWindow, ClosedLoop, Robot, Ultrasound, Hazards,
         MaxGenerations, MaxEvaluations, Stagnation, TargetFitness, WallTime,
     ):  # fmt: skip
         add(component)

@@ -5,15 +5,10 @@ from typing import Any, ClassVar
 
 from pathloom.errors import ConfigError
 from pathloom.kernel.component import NonNegative, Positive
-from pathloom.local.actions import Action
 from pathloom.local.drivers.driver import Driver, View
 from pathloom.local.drivers.pure_pursuit import PurePursuit
 from pathloom.local.policy import Decide
 from pathloom.local.robot import Motion
-
-SOON = 0.6
-"""Seconds that a guard looks ahead."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Avoiding(Driver):
@@ -34,18 +29,10 @@ class Avoiding(Driver):
     """Room on each side of the robot, in metres, without which the way counts as blocked."""
     relief: NonNegative = 0.05
     """More room, in metres, that there has to be before the path is taken up again."""
-    guard: NonNegative = 0.0
-    """Overrule the policy where it would come nearer than this to something sensed, in metres: turn sharply to the right.
-
-    0: never. The simplified distances have gaps of 30° and more between their arcs, into which a policy drives blindly.
-    """
 
     def steer(self, view: View, decide: Decide | None, memory: Any) -> tuple[Motion, Any]:
         if decide is None:
             raise ConfigError(f"{self.name}: found no policy, allowed a policy or a driver that needs none")
         if not view.blocked(self.margin + (self.relief if memory else 0.0)):
             return self.pursuit.steer(view, None, None)[0], False
-        motion = view.robot.motion(int(decide(view.readings.reshape(1, -1))[0]))
-        if self.guard > 0.0 and view.nears(motion, SOON, self.guard):
-            motion = view.robot.motion(Action.SHARP_RIGHT)
-        return motion, True
+        return view.robot.motion(int(decide(view.readings.reshape(1, -1))[0])), True
