@@ -39,7 +39,17 @@ if TYPE_CHECKING:
     from pathloom.kernel.representation import Population, Representation
     from pathloom.kernel.state import Deme, State
     from pathloom.kernel.termination import Termination
-    from pathloom.local import ClosedLoop, Episode, Examples, LearnedPolicy, Model, Policy, Rule, generate, read_examples
+    from pathloom.local import (
+        ClosedLoop,
+        Episode,
+        Examples,
+        LearnedPolicy,
+        Model,
+        Policy,
+        Rule,
+        generate,
+        read_examples,
+    )
     from pathloom.local.drivers.driver import Driver
     from pathloom.multiobjective import pareto
     from pathloom.paths.additive import Prices

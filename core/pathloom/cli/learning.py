@@ -27,14 +27,14 @@ DATA = (
     click.option("--expert", default="four-leaves", show_default=True, help="The rule that labels generated ones."),
     click.option("--where", default="blocks-30:15%", show_default=True, metavar="NAME|FILE",
                  help="The map on which they are generated."),
-    click.option("--distances", type=int, default=4, show_default=True, help="How many distances each has: 2, 4 or 24."),
+    click.option("--distances", type=int, default=4, show_default=True, help="Distances of each: 2, 4 or 24."),
     click.option("--driven", is_flag=True, help="The expert drives about; else places are drawn at random."),
 )  # fmt: skip
 """What is learned from."""
 
 SET = click.option(
     "--set", "settings", multiple=True, metavar="NAME.FIELD=VALUE",
-    help="Change a policy (rf.trees=50), a driver (avoiding.margin=0.1), or robot, sensing and hazards (robot.radius=0.25).",
+    help="Change a policy (rf.trees=50), a driver (avoiding.margin=0.1), or robot, sensing and hazards.",
 )  # fmt: skip
 SEED = click.option("--seed", type=int, default=0, show_default=True, help="An integer from 0 on.")
 
@@ -68,7 +68,7 @@ def policy_of(name: str, where: str) -> "Policy":
         if name not in ALLOWED:
             raise ConfigError(f"{where}: found {name!r}, not among those allowed; {closest(name, ALLOWED)}")
         return Classifier(classifier=name)
-    return build(Policy, name, default_registry(), where)  # type: ignore[type-abstract]
+    return build(Policy, name, default_registry(), where)
 
 
 def examples_of(options: Mapping[str, Any], loop: "ClosedLoop", seed: int) -> "Examples":

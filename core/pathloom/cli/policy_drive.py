@@ -24,16 +24,32 @@ DRIVES, PLANNER, MAPS = "rf,four-leaves,pure-pursuit,dynamic-window", "dijkstra"
 
 
 @click.command("drive")
-@click.option("--policies", default=DRIVES, show_default=True, metavar="NAME|DRIVER|DRIVER:NAME,…", help="Who drives: a policy (with the driver avoiding), a driver, or a policy with a driver, e.g. guarded:rf.")  # fmt: skip
-@click.option("--model", metavar="FILE", help="A trained model, which drives as well, under its policy's name.")
+@click.option(
+    "--policies",
+    default=DRIVES,
+    show_default=True,
+    metavar="NAME|DRIVER|DRIVER:NAME,…",
+    help="Who drives: a policy (with the driver avoiding), a driver, or both, as in guarded:rf.",
+)
+@click.option("--model", metavar="FILE", help="A trained model, which drives as well, under its file's name.")
 @asking.options(*learning.DATA, learning.SET)
 @click.option("--maps", "--map", "maps", metavar="NAME|FILE,…", help=f"Maps; default {MAPS}.")
 @click.option("--start", metavar="ROW,COL|CORNER", help="Where to start on every map; default bottom-left.")
 @click.option("--goal", metavar="ROW,COL|CORNER", help="Where to go on every map; default top-right.")
-@click.option("--planner", default=PLANNER, show_default=True, metavar="NAME", help="Plans the global path, on the map without the hazards.")  # fmt: skip
+@click.option(
+    "--planner",
+    default=PLANNER,
+    show_default=True,
+    metavar="NAME",
+    help="Plans the path, on the map without what is not on it.",
+)
 @click.option("--radius", type=float, metavar="METRES", help="Radius of the robot; as --set robot.radius.")
 @click.option("--episodes", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Drives on each map.")
-@click.option("--plot", metavar="FILE", help="Draw the first episode on the first map: png, svg, pdf; gif shows the first policy drive.")  # fmt: skip
+@click.option(
+    "--plot",
+    metavar="FILE",
+    help="Draw the first drive on the first map: png, svg, pdf; gif shows the first policy drive.",
+)
 @asking.options(learning.SEED, asking.DARK)
 @click.option("--out", metavar="FILE", help="Write the JSON document.")
 @asking.options(asking.JSON, asking.QUIET)
@@ -69,7 +85,7 @@ def command(ctx: click.Context, /, **options: Any) -> None:
     if options["as_json"]:
         console.print_json(document)
     else:
-        _show(drives, document["verdicts"], console.out())
+        _show(drives, console.out())
     if options["plot"]:
         _draw(drives, options)
     if not options["quiet"]:
@@ -117,7 +133,9 @@ def _teams(options: Mapping[str, Any], seed: int) -> "tuple[ClosedLoop, dict[str
         model, manifest = load_model(options["model"])
         name = Path(options["model"]).name
         if name in teams:
-            raise ConfigError(f"--model: found {name!r}, which is the name of a policy as well; call the file otherwise")
+            raise ConfigError(
+                f"--model: found {name!r}, which is the name of a policy as well; call the file otherwise"
+            )
         known = {"policy": manifest["policy"], "trained_on": manifest["examples"]}
         teams[name] = Team(_driver("avoiding"), model.on_readings, known)
     for team in teams.values():
@@ -143,7 +161,7 @@ def _driver(name: str) -> "Driver":
     from pathloom.kernel.registry import default_registry
     from pathloom.local.drivers.driver import Driver
 
-    return build(Driver, name, default_registry(), "--policies")  # type: ignore[type-abstract]
+    return build(Driver, name, default_registry(), "--policies")
 
 
 def _instances(options: Mapping[str, Any], loop: "ClosedLoop") -> "tuple[Instance, ...]":
@@ -186,20 +204,25 @@ def _notes(drives: "Drives") -> list[str]:
         metres = None if room is None else room * cell_side(instance.problem.grid, drives.loop.cell)
         if metres is not None and metres < radius:
             near = f"the path comes as near as {metres:.2f} m to a wall"
-            notes.append(f"{instance.name}: {near}, nearer than the robot's radius of {radius:g} m; try --planner dijkstra")
-    asked = (drives.loop.hazards.standing + drives.loop.hazards.walking) * len(drives.instances) * len(next(iter(drives.episodes.values()))[0])  # fmt: skip
-    placed = sum(e.standing + e.walking for e in drives.all_of(next(iter(drives.teams))))
+            notes.append(
+                f"{instance.name}: {near}, nearer than the robot's radius of {radius:g} m; try --planner dijkstra"
+            )
+    first = drives.all_of(next(iter(drives.teams)))
+    asked = (drives.loop.hazards.standing + drives.loop.hazards.walking) * len(first)
+    placed = sum(e.standing + e.walking for e in first)
     if placed < asked:
-        notes.append(f"{asked - placed} of {asked} hazards found no place near the path with room to pass, and were left out")
+        notes.append(
+            f"{asked - placed} of {asked} hazards found no place near the path with room to pass, and were left out"
+        )
     return notes
 
 
-def _show(drives: "Drives", verdicts: list[str], out: "Console") -> None:
+def _show(drives: "Drives", out: "Console") -> None:
     from rich.table import Table
 
     from pathloom.study.driving import ARRIVED, CLEARANCE, SECONDS
 
-    loop = drives.loop
+    loop, (_, verdicts) = drives.loop, drives.compared()
     episodes = len(drives.all_of(next(iter(drives.teams)))) // len(drives.instances)
     out.print(
         f"{len(drives.instances)} maps × {episodes} drives, {loop.hazards.standing} hazards that stand and "
@@ -218,10 +241,13 @@ def _show(drives: "Drives", verdicts: list[str], out: "Console") -> None:
             f"{timing['steps_per_second']:.0f}", f"{timing['milliseconds_per_decision']:.3f}",
         )  # fmt: skip
     out.print(table)
-    if verdicts:
+    shown = [verdict for verdict in verdicts if verdict.shown]
+    if shown:
         out.print()
-    for verdict in verdicts:
-        out.print(verdict, soft_wrap=True)
+    for verdict in shown:
+        out.print(verdict.text, soft_wrap=True)
+    if len(shown) < len(verdicts):
+        out.print(f"{len(verdicts) - len(shown)} other comparisons show no effect; --json gives all.")
 
 
 def _rate(rate: Any) -> str:

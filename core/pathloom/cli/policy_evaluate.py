@@ -1,6 +1,7 @@
 """``pathloom policy evaluate``: how well policies predict what was right."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -22,9 +23,17 @@ PLOTS = (".png", ".svg", ".pdf")
 @click.option("--policies", metavar="NAME,…", help=f"Policies, or classifiers by their dotted names; default {PAPERS}.")
 @click.option("--model", metavar="FILE", help="Measure a trained model on all examples instead.")
 @asking.options(*learning.DATA, learning.SET, learning.SEED)
-@click.option("--runs", type=click.IntRange(1, 1000), default=1, show_default=True, help="Hold-outs, drawn with the seeds from --seed on.")  # fmt: skip
+@click.option(
+    "--runs",
+    type=click.IntRange(1, 1000),
+    default=1,
+    show_default=True,
+    help="Hold-outs, drawn with the seeds from --seed on.",
+)
 @click.option("--curve", is_flag=True, help="Also learn from 50, 100, 200, … examples.")
-@click.option("--plot", metavar="FILE", help="Draw who takes what for what, and with --curve the learning curves: png, svg, pdf.")  # fmt: skip
+@click.option(
+    "--plot", metavar="FILE", help="Draw who takes what for what, and with --curve the learning curves: png, svg, pdf."
+)
 @asking.options(asking.DARK)
 @click.option("--out", metavar="FILE", help="Write the JSON document.")
 @asking.options(asking.JSON, asking.QUIET)
@@ -84,7 +93,9 @@ def _document(policy: "Policy", found: "Evaluation") -> dict[str, Any]:
     return {"config": freeze(policy, default_registry()), **found.to_dict()}
 
 
-def _of_model(model: Any, manifest: Mapping[str, Any], examples: "Examples", facts: dict[str, Any], options: Any) -> None:
+def _of_model(
+    model: Any, manifest: Mapping[str, Any], examples: "Examples", facts: dict[str, Any], options: Any
+) -> None:
     """Measure a model that is there on all examples."""
     from pathloom.cli import console
     from pathloom.draw import save
@@ -93,15 +104,22 @@ def _of_model(model: Any, manifest: Mapping[str, Any], examples: "Examples", fac
 
     if model.width != examples.width:
         found = f"{examples.width} distances"
-        raise ConfigError(f"{examples.name}: found {found}, allowed {model.width}, as {options['model']} was trained with")
+        raise ConfigError(
+            f"{examples.name}: found {found}, allowed {model.width}, as {options['model']} was trained with"
+        )
     measures = tried(model, examples)
     name = model.policy.name
     _give({**facts, "model": dict(manifest), "policies": {name: {"all": measures.to_dict()}}}, options)
     if not options["as_json"]:
         console.out().print(f"{options['model']}: {name}, trained on {manifest['examples']['name']}", soft_wrap=True)
-        console.out().print(f"right on {100 * measures.accuracy:.2f} % of {len(examples)} examples, MCC {measures.mcc:.3f}")
+        console.out().print(
+            f"right on {100 * measures.accuracy:.2f} % of {len(examples)} examples, MCC {measures.mcc:.3f}"
+        )
     if options["plot"]:
-        save(confusion_figure({name: measures.confusion}, title=examples.name, dark=options["dark"]), options["plot"])
+        save(
+            confusion_figure({name: measures.confusion}, title=Path(examples.name).name, dark=options["dark"]),
+            options["plot"],
+        )
 
 
 def _give(document: dict[str, Any], options: Mapping[str, Any]) -> None:
@@ -122,7 +140,9 @@ def _show(found: Mapping[str, "Evaluation"], examples: "Examples", out: "Console
     first = next(iter(found.values()))
     out.print(f"{examples.name}: {len(examples)} examples of {examples.width} distances", soft_wrap=True)
     draws = len(first.holdouts)
-    what = f"hold-out, {first.train} to learn from and {first.test} for the test" + (f", {draws} draws" if draws > 1 else "")
+    what = f"hold-out, {first.train} to learn from and {first.test} for the test" + (
+        f", {draws} draws" if draws > 1 else ""
+    )
     out.print(f"{what}; ten folds as they stand in the file, and shuffled; in %")
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column("policy")
@@ -142,4 +162,7 @@ def _draw(found: Mapping[str, "Evaluation"], examples: "Examples", options: Mapp
 
     curves = {name: it.curve for name, it in found.items() if it.curve}
     confusions = {name: it.holdouts[0].confusion for name, it in found.items()}
-    save(confusion_figure(confusions, curves=curves, title=examples.name, dark=options["dark"]), options["plot"])
+    save(
+        confusion_figure(confusions, curves=curves, title=Path(examples.name).name, dark=options["dark"]),
+        options["plot"],
+    )

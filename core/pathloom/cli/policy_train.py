@@ -9,7 +9,13 @@ from pathloom.errors import ConfigError
 
 
 @click.command("train")
-@click.option("--policy", default="rf", show_default=True, metavar="NAME", help="A policy, or a classifier such as sklearn.tree.DecisionTreeClassifier.")  # fmt: skip
+@click.option(
+    "--policy",
+    default="rf",
+    show_default=True,
+    metavar="NAME",
+    help="A policy, or a classifier such as sklearn.tree.DecisionTreeClassifier.",
+)
 @asking.options(*learning.DATA, learning.SET, learning.SEED)
 @click.option("--out", metavar="FILE", help="Where the model is kept, e.g. rf.skops.")
 @asking.options(asking.JSON, asking.QUIET)
@@ -45,6 +51,9 @@ def command(**options: Any) -> None:
         console.print_json({**manifest, "file": options["out"], "accuracy_on_its_examples": accuracy})
         return
     out = console.out()
-    out.print(f"{options['out']}: {policy.name}, trained on {len(examples)} examples of {model.width} distances", soft_wrap=True)
+    out.print(
+        f"{options['out']}: {policy.name}, trained on {len(examples)} examples of {model.width} distances",
+        soft_wrap=True,
+    )
     out.print(f"{examples.name}, sha256 {examples.sha256[:16]}…", soft_wrap=True)
     out.print(f"right on {100 * accuracy:.1f} % of them; on others: pathloom policy evaluate", soft_wrap=True)

@@ -15,7 +15,7 @@ from pathloom.compiled.random import uniform
 
 @part("f8(u1[::1], i8, i8, f8, f8, f8, f8, f8)")
 def to_wall(blocked, rows, cols, x, y, dx, dy, reach):
-    """Return how far a ray with direction (dx, dy), a unit vector, goes until it enters an obstacle cell; at most reach.
+    """Return how far a ray along the unit vector (dx, dy) goes until it enters an obstacle cell; at most reach.
 
     Source: J. Amanatides, A. Woo (1987), A fast voxel traversal algorithm, Eurographics.
     """
@@ -97,29 +97,27 @@ def clearance(blocked, rows, cols, x, y, discs, reach):
 def wander(blocked, rows, cols, movers, velocities, still, x, y, radius, seconds, words):
     """Let movers (m, 3), discs with velocities (m, 2), walk on for a time, in place.
 
-    Whoever would walk into an obstacle or a disc that stands still turns to a direction
-    drawn at random and goes on from there; whoever would walk into the robot, a disc at
-    (x, y), waits.
+    Whoever would walk into an obstacle, a disc that stands still or the robot, a disc at
+    (x, y), stays where it is and turns to a direction drawn at random.
     """
     for k in range(movers.shape[0]):
         ahead_x = movers[k, 0] + velocities[k, 0] * seconds
         ahead_y = movers[k, 1] + velocities[k, 1] * seconds
         size = movers[k, 2]
-        if clearance(blocked, rows, cols, ahead_x, ahead_y, still, size) < size:
+        apart = math.sqrt((ahead_x - x) * (ahead_x - x) + (ahead_y - y) * (ahead_y - y))
+        before = math.sqrt((movers[k, 0] - x) * (movers[k, 0] - x) + (movers[k, 1] - y) * (movers[k, 1] - y))
+        into_robot = apart < size + radius and apart < before
+        if into_robot or clearance(blocked, rows, cols, ahead_x, ahead_y, still, size) < size:
             speed = math.sqrt(velocities[k, 0] * velocities[k, 0] + velocities[k, 1] * velocities[k, 1])
             angle = 2.0 * math.pi * uniform(words)
             velocities[k, 0], velocities[k, 1] = speed * math.cos(angle), speed * math.sin(angle)
-            continue
-        apart = math.sqrt((ahead_x - x) * (ahead_x - x) + (ahead_y - y) * (ahead_y - y))
-        before = math.sqrt((movers[k, 0] - x) * (movers[k, 0] - x) + (movers[k, 1] - y) * (movers[k, 1] - y))
-        if apart < size + radius and apart < before:
             continue
         movers[k, 0], movers[k, 1] = ahead_x, ahead_y
 
 
 @kernel("f8[::1](f8[:, :, ::1], f8[:, ::1])")
 def nearest_on_ways(places, points):
-    """Return for each of n ways, of s places each (n, s, 2), the distance to the nearest of points (m, 2); inf of none."""
+    """Return how near each of n ways, of s places (n, s, 2), comes to points (m, 2): (n,); inf where there are none."""
     nearest = np.empty(places.shape[0])
     for n in range(places.shape[0]):
         least = math.inf

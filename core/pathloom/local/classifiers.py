@@ -53,7 +53,9 @@ class Classifier(LearnedPolicy):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.classifier not in ALLOWED:
-            raise ConfigError(f"{self.name}: classifier: found {self.classifier!r}; {closest(self.classifier, ALLOWED)}")
+            raise ConfigError(
+                f"{self.name}: classifier: found {self.classifier!r}; {closest(self.classifier, ALLOWED)}"
+            )
         for text in self.parameters:
             _parameter(text)
 

@@ -1,4 +1,4 @@
-"""Evaluating policies on examples: hold-out, ten folds in two orders, and how much there is to gain from more examples."""
+"""Evaluating policies on examples: hold-out, ten folds in two orders, and what more examples are worth."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -118,6 +118,6 @@ def _own(seed: int) -> np.random.Generator:
 
 
 def _sizes(most: int) -> list[int]:
-    """Return numbers of rows, each twice the one before, up to all of them."""
-    doublings = max(0, math.ceil(math.log2(most / SHORTEST)))
+    """Return numbers of rows, each twice the one before, and all of them."""
+    doublings = max(0, round(math.log2(most / SHORTEST)))
     return [*(SHORTEST * 2**k for k in range(doublings)), most]

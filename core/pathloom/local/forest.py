@@ -49,7 +49,9 @@ class Forest:
         sizes = [int(tree.node_count) for tree in trees]
         roots = np.cumsum([0, *sizes[:-1]]).astype(np.int64)
         children = {
-            side: np.concatenate([getattr(tree, f"children_{side}") + root for tree, root in zip(trees, roots, strict=True)])
+            side: np.concatenate(
+                [getattr(tree, f"children_{side}") + root for tree, root in zip(trees, roots, strict=True)]
+            )
             for side in ("left", "right")
         }
         inner = np.concatenate([tree.children_left != -1 for tree in trees])

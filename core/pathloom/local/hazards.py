@@ -19,8 +19,8 @@ TRIES = 60
 class Hazards(Component):
     """Discs near the path, which leave the robot room to pass on either side.
 
-    Those that walk go straight on until they meet a wall, and then in a direction drawn at random. They
-    wait rather than walk into the robot: whatever is hit, the robot has driven into.
+    Those that walk go straight on until they meet a wall or the robot, and then in a direction drawn at
+    random. They never walk into the robot: whatever is hit, the robot has driven into.
     """
 
     kind: ClassVar[str] = "hazards"
@@ -59,7 +59,7 @@ class Hazards(Component):
         pace = rng.uniform(self.slowest, self.fastest, len(moving))
         angle = rng.uniform(-np.pi, np.pi, len(moving))
         velocities = np.stack((pace * np.cos(angle), pace * np.sin(angle)), axis=1)
-        return Surroundings(grid, cell, standing, moving, velocities, rng.bit_generator.random_raw(4))  # type: ignore[arg-type]
+        return Surroundings(grid, cell, standing, moving, velocities, rng.bit_generator.random_raw(4))
 
     def _placed(
         self, around: Surroundings, count: int, way: Floats, aside: float, room: float, rng: np.random.Generator

@@ -36,10 +36,14 @@ class Measures:
         """Measure predictions (n,) of actions (n,)."""
         from sklearn import metrics
 
-        macro = metrics.precision_recall_fscore_support(real, predicted, average="macro", zero_division=0)
+        precision, recall, f1, _ = metrics.precision_recall_fscore_support(
+            real, predicted, average="macro", zero_division=0
+        )
         return cls(
-            float(metrics.accuracy_score(real, predicted)),
-            *(float(value) for value in macro[:3]),
+            accuracy=float(metrics.accuracy_score(real, predicted)),
+            precision=float(precision),
+            recall=float(recall),
+            f1=float(f1),
             mcc=float(metrics.matthews_corrcoef(real, predicted)) if len(real) > 1 else 0.0,
             confusion=_table(metrics.confusion_matrix(real, predicted, labels=list(Action))),
         )

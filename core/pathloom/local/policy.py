@@ -53,7 +53,7 @@ class LearnedPolicy(Policy, ABC):
     """A policy that learns by a classifier with the interface of scikit-learn."""
 
     in_files: ClassVar[frozenset[str]] = frozenset()
-    """Dotted names of functions and types of its own that its saved models refer to, and that a file may therefore name."""
+    """Dotted names of functions and types of its own that its saved models refer to: a file may name them."""
 
     @abstractmethod
     def estimator(self, seed: int) -> Any:
@@ -62,7 +62,9 @@ class LearnedPolicy(Policy, ABC):
     def trained(self, examples: Examples, rng: np.random.Generator) -> "Model":
         found = np.unique(examples.actions)
         if len(found) < 2:
-            raise ConfigError(f"{examples.name}: found the action {int(found[0])} only, allowed two or more to learn from")
+            raise ConfigError(
+                f"{examples.name}: found the action {int(found[0])} only, allowed two or more to learn from"
+            )
         classifier = self.estimator(int(rng.integers(2**31)))
         try:
             with warnings.catch_warnings(record=True) as said:

@@ -49,12 +49,16 @@ def read_examples(path: FilePath) -> Examples:
             raise refusal(path, where, f"{len(fields) + 1} columns", f"{width + 1} as in the first line")
         for column, field in enumerate(fields, 1):
             if not _is_number(field) or not 0.0 <= (value := float(field)) < math.inf:
-                raise refusal(path, f"{where}, column {column}", shown(field.strip()), "a distance in metres, from 0 on")
+                raise refusal(
+                    path, f"{where}, column {column}", shown(field.strip()), "a distance in metres, from 0 on"
+                )
             distances[number - first - 1, column - 1] = value
         action = _NUMBERS.get(label.strip().lower())
         if action is None:
             allowed = f"{', '.join(NAMES)} or 0 to {len(Action) - 1}"
-            raise refusal(path, f"{where}, column {width + 1}", shown(label.strip()), allowed, meant(label.strip(), NAMES))
+            raise refusal(
+                path, f"{where}, column {width + 1}", shown(label.strip()), allowed, meant(label.strip(), NAMES)
+            )
         actions[number - first - 1] = action
     return Examples(distances, actions, str(path), notes)
 

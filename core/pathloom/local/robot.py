@@ -45,7 +45,7 @@ class Robot(Component):
     """A disc that drives forwards and turns on the spot; no slip, no inertia.
 
     The paper says nothing of how the robot moves for an action, nor do the data; these motions are
-    ours. ``slight`` turns are curves of 0.6 m radius, the ``sharp`` one is a turn on the spot.
+    ours. Slight turns are curves of 1 m radius, the sharp one is a turn on the spot.
     """
 
     kind: ClassVar[str] = "robot"
@@ -62,7 +62,7 @@ class Robot(Component):
     """Speed of the action Move-Forward, in metres a second."""
     slight_speed: NonNegative = 0.3
     """Speed in a slight turn, to either side."""
-    slight_turn: Positive = 0.5
+    slight_turn: Positive = 0.3
     """Rate of a slight turn, in radians a second."""
     sharp_speed: NonNegative = 0.0
     """Speed in a sharp turn."""

@@ -38,7 +38,9 @@ class FourLeaves(Rule):
 
     def decide(self, distances: Floats) -> Actions:
         front, left = front_and_left(distances)
-        beside = np.where(left <= self.near, Action.SLIGHT_RIGHT, np.where(left <= self.far, Action.FORWARD, Action.SLIGHT_LEFT))
+        beside = np.where(
+            left <= self.near, Action.SLIGHT_RIGHT, np.where(left <= self.far, Action.FORWARD, Action.SLIGHT_LEFT)
+        )
         return np.where(front <= self.front, Action.SHARP_RIGHT, beside).astype(np.int64)
 
 
@@ -65,5 +67,7 @@ class WallFollower(Rule):
         front, left = front_and_left(distances)
         coming = np.maximum(self.ahead - front, 0.0) / self.ahead  # 0: nothing ahead, 1: touching
         error = left - self.keep - coming * self.band * 2.0
-        beside = np.where(error < -self.band, Action.SLIGHT_RIGHT, np.where(error <= self.band, Action.FORWARD, Action.SLIGHT_LEFT))
+        beside = np.where(
+            error < -self.band, Action.SLIGHT_RIGHT, np.where(error <= self.band, Action.FORWARD, Action.SLIGHT_LEFT)
+        )
         return np.where(front <= self.front, Action.SHARP_RIGHT, beside).astype(np.int64)

@@ -54,7 +54,9 @@ def save_model(model: Model, path: FilePath, examples: Examples, seed: int) -> d
         packed: bytes = skops.io.dumps(model.classifier, compression=zipfile.ZIP_DEFLATED)
         _check_parts(packed, model.policy, str(path))
     except PathloomError as error:
-        raise ConfigError(f"{path}: not written, for it could not be loaded again: {model.policy.name}: {error}") from error
+        raise ConfigError(
+            f"{path}: not written, for it could not be loaded again: {model.policy.name}: {error}"
+        ) from error
     manifest = {
         "schema": SCHEMA,
         "policy": freeze(model.policy, default_registry()),
@@ -97,7 +99,9 @@ def load_model(path: FilePath) -> tuple[Model, dict[str, Any]]:
     try:
         classifier = skops.io.loads(packed, trusted=sorted(trusted))
     except Exception as error:  # whatever forged parts make of skops and scikit-learn
-        raise refusal(path, "model.skops", f"what cannot be built ({first_line(error)})", "a model as it was written") from error
+        raise refusal(
+            path, "model.skops", f"what cannot be built ({first_line(error)})", "a model as it was written"
+        ) from error
     width = int(manifest["distances"])
     if type(classifier) is not type(policy.estimator(0)) or getattr(classifier, "n_features_in_", None) != width:
         raise refusal(path, "model.skops", "another classifier than the manifest's", f"one of {policy.name}")
@@ -159,7 +163,9 @@ def _check_parts(packed: bytes, policy: LearnedPolicy, name: str) -> set[str]:
     except PathloomError:
         raise
     except Exception as error:  # whatever forged parts make of skops
-        raise refusal(name, "model.skops", f"what cannot be read ({first_line(error)})", "a model as it was written") from error
+        raise refusal(
+            name, "model.skops", f"what cannot be read ({first_line(error)})", "a model as it was written"
+        ) from error
     refused |= untrusted - TRUSTED - policy.in_files
     if refused:
         raise refusal(name, "model.skops", f"{', '.join(sorted(refused))}, which is not trusted", "a model's own parts")

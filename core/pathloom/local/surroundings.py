@@ -39,7 +39,7 @@ class Surroundings:
         return np.ascontiguousarray(self.grid.occupied, np.uint8).ravel()
 
     def rays(self, poses: Floats, angles: Floats, reach: float) -> Floats:
-        """Return how far each ray goes, (n, k) metres, at most reach, from poses (n, 3) at angles (k,) from the heading."""
+        """Return how far rays at angles (k,) from the heading go from poses (n, 3): (n, k) metres, at most reach."""
         there = np.ascontiguousarray(poses, np.float64).copy()
         there[:, 0] /= self.cell
         there[:, 1] = self.grid.height - there[:, 1] / self.cell
@@ -51,10 +51,13 @@ class Surroundings:
         """Return how far a point is from what is nearest to it, in metres, at most reach."""
         height, width = self.grid.shape
         col, row = x / self.cell, height - y / self.cell
-        return float(compiled.rays.clearance(self._blocked, height, width, col, row, self._discs, reach / self.cell)) * self.cell
+        return (
+            float(compiled.rays.clearance(self._blocked, height, width, col, row, self._discs, reach / self.cell))
+            * self.cell
+        )
 
     def pass_time(self, seconds: float, x: float, y: float, radius: float) -> None:
-        """Let the movers walk on; they wait rather than walk into the robot, a disc at (x, y)."""
+        """Let the movers walk on; they turn rather than walk into the robot, a disc at (x, y)."""
         if len(self._moving) == 0:
             return
         height, width = self.grid.shape

@@ -85,7 +85,7 @@ class Drives:
         return np.array([[[_cost(e, metric) for e in of_map] for of_map in self.episodes[n]] for n in self.teams])
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the JSON document, schema ``pathloom.policy-drive/1``. What depends on the clock stands in ``timing``."""
+        """Return the JSON document, schema ``pathloom.policy-drive/1``; what a clock says stands in ``timing``."""
         comparisons, said = self.compared()
         return {
             "schema": SCHEMA,
@@ -127,7 +127,11 @@ class Drives:
             "progress": float(np.mean([e.progress for e in each])),
             "decided": sum(e.decided for e in each) / steps if steps else 0.0,
             "episodes": [
-                {"map": it.name, "seed": self.seed + k, **{key: value for key, value in vars(e).items() if key not in UNTOLD}}
+                {
+                    "map": it.name,
+                    "seed": self.seed + k,
+                    **{key: value for key, value in vars(e).items() if key not in UNTOLD},
+                }
                 for it, of_map in zip(self.instances, self.episodes[name], strict=True)
                 for k, e in enumerate(of_map)
             ],

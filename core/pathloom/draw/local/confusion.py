@@ -48,22 +48,27 @@ def confusion_figure(
     grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
     for place, (name, counts) in enumerate(confusions.items()):
         row, col = divmod(place, across)
-        last = place + across >= len(confusions)
-        _matrix(figure.add_subplot(grid[row, col]), name, np.asarray(counts), colours, left=col == 0, below=last)
+        _matrix(
+            figure.add_subplot(grid[row, col]), name, np.asarray(counts), colours, left=col == 0, below=row == rows - 1
+        )
     if curves:
         axes = figure.add_subplot(grid[rows, :])
         plain(axes, colours)
         for place, (name, points) in enumerate(curves.items()):
             x, y = np.array(points, np.float64).reshape(-1, 2).T
             look = line(place, dark=dark)
-            axes.plot(x, y, marker=marker(place), markersize=4, markerfacecolor=colour(place, dark=dark), label=name, **look)
+            axes.plot(
+                x, y, marker=marker(place), markersize=4, markerfacecolor=colour(place, dark=dark), label=name, **look
+            )
         axes.set_xscale("log")
         ticks = sorted({int(n) for points in curves.values() for n, _ in points})
         axes.set_xticks(ticks, [str(n) for n in ticks], size=SMALL)
         axes.minorticks_off()
         in_percent(axes.yaxis)
         label(axes, "examples learned from", "accuracy on others", colours)
-        legend = axes.legend(frameon=False, fontsize=SMALL, labelcolor=colours.ink, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        legend = axes.legend(
+            frameon=False, fontsize=SMALL, labelcolor=colours.ink, loc="center left", bbox_to_anchor=(1.0, 0.5)
+        )
         for text in legend.get_texts():
             text.set_parse_math(False)
     return figure
@@ -77,7 +82,10 @@ def _matrix(axes: Any, name: str, counts: Any, colours: Any, *, left: bool, belo
     axes.imshow(shares, cmap=shades, vmin=0.0, vmax=1.0, interpolation="nearest")
     dress(axes, colours)
     axes.set_title(name, size=TEXT, color=colours.ink, parse_math=False)
-    axes.set_xticks(range(len(ACTIONS)), ACTIONS if below else [""] * len(ACTIONS), size=SMALL, rotation=40, ha="right", rotation_mode="anchor")  # fmt: skip
+    axes.set_xticks(
+        range(len(ACTIONS)), ACTIONS if below else [""] * len(ACTIONS),
+        size=SMALL, rotation=40, ha="right", rotation_mode="anchor",
+    )  # fmt: skip
     axes.set_yticks(range(len(ACTIONS)), ACTIONS if left else [""] * len(ACTIONS), size=SMALL)
     axes.tick_params(length=0)
     if left:

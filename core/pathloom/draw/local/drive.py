@@ -73,12 +73,19 @@ def drive_figure(
     axes = figure.add_subplot(label="map")
     handles = scene.draw_map(axes, None)
     axes.set_aspect("equal")
-    (route,) = axes.plot(*scene.place(path), color=colours.quiet, linewidth=4, alpha=0.45, solid_capstyle="round", label="path", zorder=2)  # fmt: skip
+    (route,) = axes.plot(
+        *scene.place(path), color=colours.quiet, linewidth=4, alpha=0.45, solid_capstyle="round", label="path", zorder=2
+    )
     handles.append(route)
     first = next(iter(drives.values()))
     for x, y, size in first[0].discs:
         axes.add_patch(Circle((x, y), size, facecolor=colours.optimum, edgecolor=colours.ink, linewidth=0.6, zorder=3))
-    handles.append(Line2D([], [], marker="o", linestyle="", color=colours.optimum, markeredgecolor=colours.ink, label="not on the map, at the start"))  # fmt: skip
+    handles.append(
+        Line2D(
+            [], [], marker="o", linestyle="", color=colours.optimum, markeredgecolor=colours.ink,
+            label="not on the map, at the start",
+        )
+    )  # fmt: skip
     for place, (name, moments) in enumerate(drives.items()):
         x, y = np.array([moment[:2] for moment in moments]).T
         look = line(place, dark=dark)
@@ -89,7 +96,7 @@ def drive_figure(
         axes.plot(x[-1:], y[-1:], sign, color=shade, markersize=5, zorder=6)
         handles.append(Line2D([], [], marker=sign, markersize=5, label=f"{name}: {ends[name]}", **look))
     if title:
-        axes.set_title(title, size=TITLE, weight="bold", color=colours.ink, parse_math=False)
+        figure.suptitle(title, size=TITLE, weight="bold", color=colours.ink, parse_math=False)
     legend = figure.legend(
         handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize=SMALL, labelcolor=colours.ink,
     )  # fmt: skip

@@ -60,7 +60,7 @@ def animate_drive(
         raise PathloomError(f"{file}: found no frames, allowed one or more")
     chosen = range(len(moments))
     if len(moments) > MOST_FRAMES:
-        chosen = np.linspace(0, len(moments) - 1, MOST_FRAMES).round().astype(int).tolist()  # type: ignore[assignment]
+        chosen = np.linspace(0, len(moments) - 1, MOST_FRAMES).round().astype(int).tolist()
     stage = _Stage(np.asarray(occupied, bool), np.asarray(path, np.float64), cell, radius, dark=dark)
     images = []
     for number in chosen:
@@ -121,5 +121,3 @@ class _Stage:
     def _box(self, x: float, y: float, size: float) -> tuple[float, float, float, float]:
         col, row = self._at(x, y)
         return col - size * self.scale, row - size * self.scale, col + size * self.scale, row + size * self.scale
-
-

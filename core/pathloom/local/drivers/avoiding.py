@@ -10,6 +10,7 @@ from pathloom.local.drivers.pure_pursuit import PurePursuit
 from pathloom.local.policy import Decide
 from pathloom.local.robot import Motion
 
+
 @dataclass(frozen=True, kw_only=True)
 class Avoiding(Driver):
     """Follow the path until the sensors see something in the way to it; then do what the policy says.

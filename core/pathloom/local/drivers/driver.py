@@ -58,7 +58,7 @@ class View:
         return bool(((along > 0.0) & (along < self.distance + wide) & (beside < wide)).any())
 
     def nears(self, motion: Motion, seconds: float, margin: float) -> bool:
-        """Say whether a motion takes the robot's rim nearer than a margin to something sensed, and nearer than it is."""
+        """Say whether a motion brings the rim within a margin of something sensed, and nearer than it is now."""
         there = Pose(0.0, 0.0, 0.0).after(motion, seconds)
         now, then = (np.hypot(*(self.echoes - place).T) for place in (np.zeros(2), np.array(there[:2])))
         return bool(((then < self.robot.radius + margin) & (then < now)).any())

@@ -14,7 +14,9 @@ from pathloom.local.robot import Motion
 class PurePursuit(Driver):
     """Follow the path on circles through a point ahead, and avoid nothing."""
 
-    source: ClassVar[str] = "R. C. Coulter (1992), Implementation of the pure pursuit path tracking algorithm, CMU-RI-TR-92-01"
+    source: ClassVar[str] = (
+        "R. C. Coulter (1992), Implementation of the pure pursuit path tracking algorithm, CMU-RI-TR-92-01"
+    )
 
     aside: Positive = 1.0
     """Bearing of the target, in radians, from which on the robot turns on the spot."""
