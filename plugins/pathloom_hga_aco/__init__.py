@@ -9,7 +9,7 @@ Reference: Q. Song, S. Li, J. Yang, Q. Bai, J. Hu, X. Zhang, A. Zhang,
 Computational Intelligence and Neuroscience 2021, article 8025730,
 doi:10.1155/2021/8025730.
 
-Section by section: 3 ``policies`` and ``claims_of_policies``, 5.1 and 5.3.1 ``objectives``, 5.3.2 ``crossover``,
+Section by section: 3 ``policies``, 5.1 and 5.3.1 ``objectives``, 5.3.2 ``crossover``,
 ``mutation`` and ``control``, 5.3 ``sampling``, 5.4 ``seeding``, 5.5.1
 ``heuristic`` and ``pheromone``, 5.5.2 ``deadlock``, 5.6 ``planner`` and
 ``claims``, 5.2 ``hybrid``. What the paper leaves open stands at the statement it
