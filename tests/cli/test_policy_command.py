@@ -35,7 +35,9 @@ def test_evaluate_answers_as_the_interface_says(cli, readings):
 
 
 def test_evaluate_draws_and_shows_a_table(cli, readings, folder):
-    done = cli("policy", "evaluate", *SHORT, "--policies", "gnb,four-leaves", "--curve", "--plot", "c.png", "--out", "c.json")
+    done = cli(
+        "policy", "evaluate", *SHORT, "--policies", "gnb,four-leaves", "--curve", "--plot", "c.png", "--out", "c.json"
+    )
     assert done.code == 0
     assert "four-leaves" in done.out
     assert (folder / "c.png").read_bytes().startswith(b"\x89PNG")
@@ -71,7 +73,14 @@ BAD = {
     ("evaluate", *SHORT, "--policies", "rff"): "--policies: no policy is called 'rff'; did you mean 'hga-aco/rf'?",
     ("evaluate", *SHORT, "--policies", "gnb,gnb"): "--policies: found 'gnb' twice",
     ("evaluate", *SHORT, "--policies", "sklearn.svm.Svc"): "did you mean 'sklearn.svm.SVC'?",
-    ("evaluate", *SHORT, "--policies", "rf", "--set", "rf.tres=3"): "'hga-aco/rf' has no such parameter; did you mean 'trees'?",
+    (
+        "evaluate",
+        *SHORT,
+        "--policies",
+        "rf",
+        "--set",
+        "rf.tres=3",
+    ): "'hga-aco/rf' has no such parameter; did you mean 'trees'?",
     ("evaluate", *SHORT, "--policies", "rf", "--set", "rg.trees=3"): "--set rg.trees: nothing here is called so",
     ("evaluate", "--data", "reading.data"): "reading.data: found no such file",
     ("evaluate", *SHORT, "--model", "readings.data"): "found no zip file, or a damaged one",
