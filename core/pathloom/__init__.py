@@ -40,6 +40,18 @@ if TYPE_CHECKING:
     from pathloom.kernel.representation import Population, Representation
     from pathloom.kernel.state import Deme, State
     from pathloom.kernel.termination import Termination
+    from pathloom.local import (
+        ClosedLoop,
+        Episode,
+        Examples,
+        LearnedPolicy,
+        Model,
+        Policy,
+        Rule,
+        generate,
+        read_examples,
+    )
+    from pathloom.local.drivers.driver import Driver
     from pathloom.multiobjective import pareto
     from pathloom.paths.additive import Prices
     from pathloom.paths.ants.colony import Colony
@@ -85,6 +97,10 @@ _HOME = {
     "kernel.representation": ("Population", "Representation"),
     "kernel.state": ("Deme", "State"),
     "kernel.termination": ("Termination",),
+    "local": (
+        "ClosedLoop", "Episode", "Examples", "LearnedPolicy", "Model", "Policy", "Rule", "generate", "read_examples",
+    ),
+    "local.drivers.driver": ("Driver",),
     "multiobjective": ("pareto",),
     "paths.cell_paths": ("CellPaths", "Path"),
     "paths.collision": ("Collision",),
@@ -115,6 +131,7 @@ __all__ = [
     "Bench",
     "CellPaths",
     "Claim",
+    "ClosedLoop",
     "Collision",
     "Colony",
     "ColonyState",
@@ -129,7 +146,10 @@ __all__ = [
     "Decoder",
     "Deme",
     "Distance",
+    "Driver",
+    "Episode",
     "Evolution",
+    "Examples",
     "Fidelity",
     "Finding",
     "Fitness",
@@ -139,9 +159,11 @@ __all__ = [
     "Heuristic",
     "Indices",
     "InitialPheromone",
+    "LearnedPolicy",
     "Map",
     "MapError",
     "Migration",
+    "Model",
     "Mutation",
     "NonNegative",
     "Numbering",
@@ -163,6 +185,7 @@ __all__ = [
     "PheromoneUpdate",
     "Planner",
     "PluginError",
+    "Policy",
     "Population",
     "Positive",
     "Prices",
@@ -173,6 +196,7 @@ __all__ = [
     "Repair",
     "Representation",
     "Result",
+    "Rule",
     "Sampling",
     "Selection",
     "Share",
@@ -203,6 +227,7 @@ __all__ = [
     "exact_front",
     "freeze",
     "full_cell_cover",
+    "generate",
     "hookimpl",
     "iterate",
     "load_map",
@@ -211,6 +236,7 @@ __all__ = [
     "pareto",
     "part",
     "plan",
+    "read_examples",
     "tune",
     "validate",
     "write_map",

@@ -19,6 +19,17 @@ from pathloom.kernel.selection import ConsecutivePairs, RandomPairs, Roulette, T
 from pathloom.kernel.snapshots import Snapshots
 from pathloom.kernel.survival import BestOfBoth, KeepBest, Replacement
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations, Stagnation, TargetFitness, WallTime
+from pathloom.local.classifiers import Classifier
+from pathloom.local.drivers.avoiding import Avoiding
+from pathloom.local.drivers.dynamic_window import DynamicWindow
+from pathloom.local.drivers.guarded import Guarded
+from pathloom.local.drivers.policy_alone import PolicyAlone
+from pathloom.local.drivers.pure_pursuit import PurePursuit
+from pathloom.local.driving import ClosedLoop
+from pathloom.local.hazards import Hazards
+from pathloom.local.robot import Robot
+from pathloom.local.rules import FourLeaves, WallFollower
+from pathloom.local.sensing import Ultrasound
 from pathloom.paths.ants.ant_system import AntSystem, Die, GoalDistance, MaxMin, Retreat, Uniform
 from pathloom.paths.ants.colony import Colony
 from pathloom.paths.collision import Exact
@@ -50,6 +61,8 @@ def register(add: Add) -> None:
         BSpline, CubicBezier,
         Colony, GoalDistance, Uniform, AntSystem, MaxMin, Die, Retreat,
         Rows, Waypoints,
+        FourLeaves, WallFollower, Classifier,
+        PurePursuit, Avoiding, Guarded, PolicyAlone, DynamicWindow, ClosedLoop, Robot, Ultrasound, Hazards,
         MaxGenerations, MaxEvaluations, Stagnation, TargetFitness, WallTime,
         Progress, JsonLines, Snapshots, Live,
     ):  # fmt: skip

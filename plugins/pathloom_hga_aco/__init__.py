@@ -9,7 +9,7 @@ Reference: Q. Song, S. Li, J. Yang, Q. Bai, J. Hu, X. Zhang, A. Zhang,
 Computational Intelligence and Neuroscience 2021, article 8025730,
 doi:10.1155/2021/8025730.
 
-Section by section: 5.1 and 5.3.1 ``objectives``, 5.3.2 ``crossover``,
+Section by section: 3 ``policies``, 5.1 and 5.3.1 ``objectives``, 5.3.2 ``crossover``,
 ``mutation`` and ``control``, 5.3 ``sampling``, 5.4 ``seeding``, 5.5.1
 ``heuristic`` and ``pheromone``, 5.5.2 ``deadlock``, 5.6 ``planner`` and
 ``claims``, 5.2 ``hybrid``. What the paper leaves open stands at the statement it
@@ -32,6 +32,11 @@ def register(add: Add) -> None:
     from pathloom_hga_aco.objectives import AngleTablePenalty, MeanTurnAngle
     from pathloom_hga_aco.pheromone import TwoBest
     from pathloom_hga_aco.planner import AcoHgaAco, GaHgaAco
+    from pathloom_hga_aco.policies.gnb import Gnb
+    from pathloom_hga_aco.policies.knn import Knn
+    from pathloom_hga_aco.policies.mnb import Mnb
+    from pathloom_hga_aco.policies.rf import Rf
+    from pathloom_hga_aco.policies.svm import Svm
     from pathloom_hga_aco.rrt import Rrt
     from pathloom_hga_aco.s_rrt import SRrt
     from pathloom_hga_aco.sampling import GuidedWalk
@@ -46,5 +51,6 @@ def register(add: Add) -> None:
         GaHgaAco, AcoHgaAco, HgaAco,
         Table2, Table3,
         GreedyParentShortcut, Rrt, SRrt,
+        Mnb, Gnb, Svm, Knn, Rf,
     ):  # fmt: skip
         add(component)

@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 COMMANDS = ["", "plan", "pareto", "studio", *(f"maps {c}" for c in ("", "list", "show", "check", "make"))]
+COMMANDS += [f"policy {c}" for c in ("", "train", "evaluate", "drive")]
 COMMANDS += [f"plugins {c}" for c in ("", "list", "show", "schema", "cite")]
 
 HEAVY = [

@@ -60,6 +60,21 @@ def _oddities() -> dict[str, object]:
     comb[1, 1::2] = 1
     comb = comb.ravel()
     return {
+        "votes": compiled.forests.vote(
+            np.array([0, 3]), np.array([0, -1, -1, -1], np.int32), np.array([0.5, 0.0, 0.0, 0.0]),
+            np.array([1, 0, 0, 0], np.int32), np.array([2, 0, 0, 0], np.int32),
+            np.array([[0.5, 0.5], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5]]), np.array([[0.25], [0.75]], np.float32),
+        ),
+        "rays": compiled.rays.cast(comb, 4, 150, np.array([[75.25, 0.5, 0.25], [-1.0, 0.0, 0.0], [75.5, 1.5, 0.0]]),
+                                   np.array([0.0, 1.5, -1.5, 3.0]), np.array([[78.0, 0.25, 0.5], [75.25, 0.5, 0.0]]), 9.0),
+        "rays along the axes": compiled.rays.cast(
+            open_room.blocked, 3, 3, np.array([[1.5, 1.5, 0.0]]), np.array([0.0]), np.empty((0, 3)), 9.0
+        ),
+        "room": np.array([
+            compiled.rays.clearance(comb, 4, 150, x, 2.75, np.array([[9.0, 2.0, 0.5]]), 2.0) for x in (-1.0, 7.5, 9.5)
+        ]),
+        "walkers": _walked(open_room.blocked, words),
+        "ways": compiled.rays.nearest_on_ways(np.zeros((2, 1, 2)), np.ones((1, 2))),
         "no way": compiled.search.octile_path(split.moves, 3, 0, 2),
         "no straight way": compiled.any_angle.any_angle_path(split.blocked, 3, 0, 2, 2, np.zeros(3), np.zeros(3), math.inf, 99),
         "too little work": compiled.any_angle.any_angle_path(np.zeros(9, np.uint8), 3, 6, 2, 2, np.zeros(9), np.zeros(9), 9.0, 1),
@@ -122,6 +137,14 @@ def _oddities() -> dict[str, object]:
             np.array([[0, 0, 2], [2, 2, 0]], np.int32), np.array([[0, 1]]), *insertion, 4, 9, True, False, words
         ),
     }  # fmt: skip
+
+
+def _walked(blocked: np.ndarray, words: np.ndarray) -> np.ndarray:
+    movers = np.array([[0.5, 0.5, 0.25], [2.5, 1.5, 0.25], [1.0, 2.5, 0.25]])
+    velocities = np.array([[-1.0, 0.0], [0.0, 0.5], [1.0, 0.0]])
+    for _ in range(4):
+        compiled.rays.wander(blocked, 3, 3, movers, velocities, np.array([[0.5, 2.0, 0.1]]), 2.0, 2.5, 0.4, 0.5, words)
+    return np.concatenate((movers.ravel(), velocities.ravel()))
 
 
 def _results(problem: PathProblem) -> dict[str, object]:

@@ -20,6 +20,7 @@ COMMANDS = {
     "tune": "Try values of a planner's parameters, and predict the best.",
     "study": "Show, resume and export what compare and ablate wrote.",
     "claims": "Measure again what the papers say.",
+    "policy": "Avoid obstacles locally: train, evaluate, drive.",
     "maps": "List, show, check and make maps.",
     "studio": "Draw, drag and watch evolution in the browser.",
     "plugins": "List, show, cite, check and begin plugins.",

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pathloom.compiled import decoding as decoding
     from pathloom.compiled import distances as distances
     from pathloom.compiled import exchange as exchange
+    from pathloom.compiled import forests as forests
     from pathloom.compiled import fronts as fronts
     from pathloom.compiled import guided as guided
     from pathloom.compiled import headings as headings
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from pathloom.compiled import pooling as pooling
     from pathloom.compiled import priced as priced
     from pathloom.compiled import probabilities as probabilities
+    from pathloom.compiled import rays as rays
     from pathloom.compiled import rejoining as rejoining
     from pathloom.compiled import rerouting as rerouting
     from pathloom.compiled import reshaping as reshaping
@@ -57,6 +59,7 @@ FAMILIES = (
     "decoding",
     "distances",
     "exchange",
+    "forests",
     "fronts",
     "guided",
     "headings",
@@ -70,6 +73,7 @@ FAMILIES = (
     "pooling",
     "priced",
     "probabilities",
+    "rays",
     "rejoining",
     "rerouting",
     "reshaping",

@@ -1,7 +1,7 @@
 """Variants against each other in one metric.
 
 Inference is per instance: the runs of a variant on one map are one observation,
-their median (of the success rate: their mean). Over several instances, two
+their median (of a yes or no: their mean). Over several instances, two
 variants are compared by Wilcoxon's signed rank test of these, more by Friedman's
 test and then pair by pair with Holm's correction. Fewer instances than could ever
 show anything so are taken as they are: runs are compared within each, by van
@@ -27,7 +27,7 @@ from pathloom.study.statistics.detectable import (
     detectable_shift,
 )
 from pathloom.study.statistics.effects import Bootstrap, Estimate, a12_by_instance, differences
-from pathloom.study.statistics.metrics import SUCCESS, Metric
+from pathloom.study.statistics.metrics import Metric
 from pathloom.study.statistics.multiple import holm
 from pathloom.study.statistics.ranking import Ranking, friedman, rank, runs_of
 from pathloom.study.statistics.signed_rank import least_p, signed_rank
@@ -166,7 +166,7 @@ class _Two:
     def _within_instances(self, blank: Pair, both: NDArray[np.bool_], level: float) -> Pair:
         one, other = self.costs[0][both], self.costs[1][both]
         rate = None
-        if self.metric is SUCCESS:
+        if self.metric.yes_or_no:
             n, m = (int((~np.isnan(runs)).sum()) for runs in (one, other))
             rate = detectable_rate(int((one < 0.0).sum() + (other < 0.0).sum()), n, m, level)
         apart = replace(self.bootstrap, resamples=0).median_difference(*self.centres[:, both], paired=True)
@@ -182,7 +182,7 @@ class _Two:
 
     def _over_runs(self, blank: Pair, x: Floats, y: Floats, level: float) -> Pair:
         effect = self.bootstrap.a12(x, y)
-        if self.metric is SUCCESS:
+        if self.metric.yes_or_no:
             table = np.array([[(runs < 0.0).sum(), (runs == 0.0).sum()] for runs in (x, y)])
             p = float(stats.fisher_exact(table).pvalue)
             apart = Estimate(float(y.mean() - x.mean()), None, None)
@@ -224,7 +224,7 @@ def _centres(costs: Floats, metric: Metric) -> Floats:
     """Return one cost for each variant and instance: the median over runs, of the success rate the mean."""
     known = ~np.isnan(costs)
     counts = known.sum(axis=2)
-    if metric is SUCCESS:
+    if metric.yes_or_no:
         return np.where(counts > 0, np.where(known, costs, 0.0).sum(axis=2) / np.maximum(counts, 1), np.nan)
     ordered = np.sort(costs, axis=2)  # nan goes last, and stands first where there is nothing else
     lower, upper = np.maximum(counts - 1, 0) // 2, np.minimum(counts // 2, costs.shape[2] - 1)

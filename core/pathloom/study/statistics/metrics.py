@@ -18,6 +18,8 @@ class Metric:
     unit: str = ""
     """Written after a value; ``%`` for shares, which are then shown times 100."""
     digits: int = 2
+    yes_or_no: bool = False
+    """Each run has it or has not; what is compared is the share of the runs, and a run that has it costs −1, else 0."""
     target: bool = False
     """Counts evaluations up to a target: a run that found a path and has no value missed the target."""
 
@@ -59,7 +61,7 @@ class Metric:
         return f"{text} {self.apart}" if self.apart else text
 
 
-SUCCESS = Metric("success", "success rate", "more", "%", 1, short="found")
+SUCCESS = Metric("success", "success rate", "more", "%", 1, yes_or_no=True, short="found")
 METRICS = {
     metric.name: metric
     for metric in (

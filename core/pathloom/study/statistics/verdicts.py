@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from pathloom.study.statistics.comparing import Comparison, Pair
 from pathloom.study.statistics.effects import Estimate, size_of
-from pathloom.study.statistics.metrics import SUCCESS, Metric
+from pathloom.study.statistics.metrics import Metric
 
 TESTS = {
     "signed rank": "Wilcoxon signed rank",
@@ -80,7 +80,7 @@ def _by(pair: Pair, metric: Metric, *, better: bool) -> str:
     it = pair.difference if better else _turned(pair.difference)
     if it.value is None:
         return ", which fails too often for a median"
-    kind = "difference" if metric is SUCCESS and pair.test == "Fisher" else "median difference"
+    kind = "difference" if metric.yes_or_no and pair.test == "Fisher" else "median difference"
     return f": {kind} {metric.show_difference(it.value, it.low, it.high)}"
 
 
