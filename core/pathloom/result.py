@@ -169,6 +169,14 @@ class Result(Document):
             save(figure, file)
         return figure
 
+    def _repr_svg_(self) -> str | None:
+        """Return the figure, for notebooks; a result that was read from JSON has none."""
+        if self.path_problem is None:
+            return None
+        from pathloom.draw.saving import svg
+
+        return svg(self.plot())
+
     def _was_refined(self) -> bool:
         return self.path is not None and self.unrefined is not None and not np.array_equal(self.path, self.unrefined)
 

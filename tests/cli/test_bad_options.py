@@ -108,7 +108,7 @@ FILES = {
     "--out .": ".: is a folder",
     "--out ''": "--out: found no name, allowed a file",
     "--plot gone/a.png": "gone/a.png: the folder 'gone' does not exist",
-    "--plot a.bmp": "--plot: found the suffix '.bmp', allowed .png .svg .pdf .gif",
+    "--plot a.bmp": "--plot: found the suffix '.bmp', allowed .png .svg .pdf .gif .mp4",
     "--plot picture": "--plot: found the suffix ''",
     "--export gone/a.csv": "gone/a.csv: the folder 'gone' does not exist",
     "--export a.txt": "--export: found the suffix '.txt', allowed .csv .json",

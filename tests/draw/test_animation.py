@@ -74,7 +74,7 @@ def test_the_same_frames_give_the_same_bytes(tmp_path, walls, scene) -> None:
 @pytest.mark.parametrize(
     ("name", "count", "message"),
     [
-        ("a.png", 1, r"found the suffix '\.png', allowed \.gif"),
+        ("a.png", 1, r"found the suffix '\.png', allowed \.gif \.mp4"),
         ("a.gif", 0, r"found no frames"),
         ("none/a.gif", 1, r"no such folder"),
     ],

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from pathloom.config import Config
 
 EXPORTS = (".csv", ".json")
-PLOTS = (".png", ".svg", ".pdf", ".gif")
+MOVING = (".gif", ".mp4")
+PLOTS = (".png", ".svg", ".pdf", *MOVING)
 
 
 @click.command("plan")
@@ -23,7 +24,9 @@ PLOTS = (".png", ".svg", ".pdf", ".gif")
 @click.option("--optimum", is_flag=True, help="Compute the exact optima and the gaps to them.")
 @click.option("--smooth", metavar="NAME", help="Also make a smooth curve of the path: b-spline or cubic-bezier.")
 @click.option("--export", metavar="FILE", help="Write the path: csv of cells and metres, json of a nav_msgs/Path.")
-@click.option("--plot", metavar="FILE", help="Draw map, path and convergence: png, svg, pdf; gif shows the evolution.")
+@click.option(
+    "--plot", metavar="FILE", help="Draw map, path and convergence: png, svg, pdf; gif and mp4 show the evolution."
+)
 @asking.options(*asking.ANSWER)
 @click.pass_context
 def command(ctx: click.Context, /, **options: Any) -> None:
@@ -39,6 +42,10 @@ def command(ctx: click.Context, /, **options: Any) -> None:
 
         config = replace(config, smooth=smoother(asking.value_of(options["smooth"]), "--smooth"))
     asking.check_files(options, plot=PLOTS, export=EXPORTS, out=None)
+    if options["plot"] and Path(options["plot"]).suffix.lower() == ".mp4":
+        from pathloom.draw.video import check_ffmpeg
+
+        check_ffmpeg(options["plot"])  # said before the work, not after it
 
     from pathloom.cli import console
     from pathloom.config import lasting
@@ -58,7 +65,7 @@ def _run(config: "Config", planner: Any, problem: Any, options: dict[str, Any], 
     from pathloom.planning import plan
 
     frames: list[Any] = []
-    animated = bool(options["plot"]) and Path(options["plot"]).suffix.lower() == ".gif"
+    animated = bool(options["plot"]) and Path(options["plot"]).suffix.lower() in MOVING
     with console.searching() as check:
 
         def watch(state: Any) -> None:

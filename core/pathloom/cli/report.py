@@ -139,9 +139,9 @@ def write(result: Result, options: dict[str, Any], frames: list[Any]) -> list[st
     elif options["export"]:
         unwritten.append(options["export"])
     if options["plot"]:
-        if Path(options["plot"]).suffix.lower() == ".gif":
-            from pathloom.draw import animate
+        from pathloom.draw.animation import SUFFIXES, animate
 
+        if Path(options["plot"]).suffix.lower() in SUFFIXES:
             problem = result.path_problem
             usable = [f for f in frames if f[2] is not None]
             if problem is not None and usable:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from pathloom.draw.colours import Theme, rgb, theme
 from pathloom.draw.raster import coarse
 from pathloom.draw.saving import check_suffix
+from pathloom.draw.video import check_ffmpeg, encoded
 from pathloom.errors import PathloomError
 from pathloom.files import FilePath, replace
 
@@ -20,7 +21,10 @@ Cell = tuple[int, int]
 Frame: TypeAlias = tuple[int, Sequence[ArrayLike], ArrayLike | None, float | None]
 """Generation, paths (k, 2) of the population, path (k, 2) and fitness of its best one."""
 
+SUFFIXES = (".gif", ".mp4")
 MOST_FRAMES = 120
+LAST = 2500
+"""Milliseconds that the last frame stays."""
 SIDE = 600
 """Pixels, about, of the map's longer side."""
 MARGIN, HEADER = 12, 34
@@ -47,7 +51,7 @@ def animate(
     goal: Cell,
     dark: bool = False,
 ) -> None:
-    """Write an animated GIF of a population that evolves, replacing a file that stands there.
+    """Write an animation of a population that evolves, as GIF or MP4, replacing a file that stands there.
 
     Of more than 120 frames as many are taken, evenly, the first and the last among
     them; the last one stays longer.
@@ -58,7 +62,7 @@ def animate(
         Generation, population, best path and its fitness; the population's paths and
         the best are (k, 2) cells, and the best may be ``None``.
     file
-        ``.gif``.
+        ``.gif``, or ``.mp4`` where the program ffmpeg is installed.
     occupied, closed
         (rows, cols) bool: obstacles, and what a robot's radius closes.
     start, goal
@@ -69,9 +73,12 @@ def animate(
     Raises
     ------
     PathloomError
-        If there is no frame, the suffix is another, or the folder is missing or not writable.
+        If there is no frame, the suffix is another, ffmpeg is missing or fails, or the folder is
+        missing or not writable.
     """
-    check_suffix(file, (".gif",))
+    suffix = check_suffix(file, SUFFIXES)
+    if suffix == ".mp4":
+        check_ffmpeg(file)
     shown = list(frames)
     if not shown:
         raise PathloomError(f"{file}: found no frames, allowed one or more")
@@ -82,10 +89,13 @@ def animate(
     stage = Stage(walls, rims, (start, goal), theme(dark=dark))
     images = [stage.draw(*frame) for frame in shown]
     step = int(min(max(8000 / len(images), 60), 400)) // 10 * 10  # a GIF counts hundredths of a second
+    if suffix == ".mp4":
+        replace(file, encoded(file, images, step, LAST))
+        return
     buffer = io.BytesIO()
     images[0].save(
         buffer, "GIF", save_all=True, append_images=images[1:], loop=0, optimize=False, disposal=1,
-        duration=[step] * (len(images) - 1) + [2500],
+        duration=[step] * (len(images) - 1) + [LAST],
     )  # fmt: skip
     replace(file, buffer.getvalue())
 

@@ -45,6 +45,16 @@ def save(figure: "Figure", file: FilePath) -> None:
     replace(file, picture.getvalue())
 
 
+def svg(figure: "Figure") -> str:
+    """Return a figure as an SVG document, as a notebook shows it."""
+    import matplotlib as mpl
+
+    picture = io.StringIO()
+    with mpl.rc_context({"svg.hashsalt": "pathloom"}):
+        figure.savefig(picture, format="svg", metadata={"Date": None}, facecolor=figure.get_facecolor())
+    return picture.getvalue()
+
+
 def check_suffix(file: FilePath, allowed: "dict[str, Any] | tuple[str, ...]") -> str:
     """Return the suffix of a file, in lower case, if it is an allowed one.
 

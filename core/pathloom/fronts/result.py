@@ -162,6 +162,14 @@ class ParetoResult(Document):
             save(figure, file)
         return figure
 
+    def _repr_svg_(self) -> str | None:
+        """Return the figure, for notebooks; a front that is empty or was read from JSON has none."""
+        if not self.found or self.path_problem is None:
+            return None
+        from pathloom.draw.saving import svg
+
+        return svg(self.plot())
+
 
 def _written(value: Any) -> Any:
     """Return JSON values only."""

@@ -169,6 +169,12 @@ class OccupancyGrid:
         name = f"{self.name!r}, " if self.name else ""
         return f"<OccupancyGrid {name}{self.height} x {self.width}, {self.free_count} free>"
 
+    def _repr_svg_(self) -> str:
+        """Return the map, for notebooks."""
+        from pathloom.grid.svg import picture
+
+        return picture(self.occupied)
+
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self.occupied.setflags(write=False)  # numpy forgets this on its way through pickle

@@ -5,7 +5,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, fields
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,12 @@ from pathloom.study.lock import Lock
 from pathloom.study.row import Row, RunHistory
 from pathloom.study.session import Crew, Session, Watch, Workers, check_versions
 from pathloom.study.store import MEMORY, References, Store, unpacked
+from pathloom.study.table import html
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pathloom.study.statistics.summary import Summary
 
 
 @dataclass(frozen=True)
@@ -181,6 +187,70 @@ class Study:
         """Return the planner of a variant, or of a run's."""
         name = variant.variant if isinstance(variant, Row) else variant
         return self._planners[name] if name in self._planners else self._store.planner(name)
+
+    def summary(self, *, baseline: str | None = None, alpha: float = 0.05) -> "Summary":
+        """Return what the runs show: success rates, medians, comparisons, verdicts.
+
+        Parameters
+        ----------
+        baseline
+            The variant that all others are compared with; by default the base of an
+            ablation or of tuning, and of a comparison all pairs.
+        alpha
+            Level of the tests.
+
+        Raises
+        ------
+        ConfigError
+            If the study has no runs yet, or no variant has the name.
+        """
+        from pathloom.study.report.report import summarised
+
+        return summarised(self, baseline, alpha)
+
+    def plot(self, file: Any = None, *, figure: str | None = None, dark: bool = False) -> "Figure":
+        """Draw one figure of what the runs show; save to ``file`` if one is given.
+
+        Parameters
+        ----------
+        file
+            ``.png``, ``.svg`` or ``.pdf``.
+        figure
+            ``ranks`` (critical difference), ``spread`` (every run), ``convergence``,
+            ``targets`` (reached by so many evaluations), ``profile`` (performance
+            profile) or ``effects`` (of factors); by default the first that the runs allow.
+        dark
+            For dark ground.
+
+        Raises
+        ------
+        StudyError
+            If there is no such figure, or the runs do not allow it yet.
+        ConfigError
+            If the study has no runs yet.
+        """
+        from pathloom.draw import save
+        from pathloom.draw.study import Sheet
+        from pathloom.study.report.figures import figures
+
+        seen = []
+        for plot in figures(self, self.summary(), self.rows(), Sheet(width=3.7, dark=dark)):
+            seen.append(plot.name)
+            if figure in (None, plot.name):
+                if file is not None:
+                    save(plot.figure, file)
+                return plot.figure
+        raise StudyError(f"figure: found {figure!r}, allowed of these runs {', '.join(seen) or 'none'}")
+
+    def _repr_html_(self) -> str:
+        """Return how far the study is, for notebooks."""
+        status = self.status
+        endings = sorted({ending for counts in status.variants.values() for ending in counts})
+        return html(
+            ("variant", *endings),
+            ((name, *(str(counts.get(ending, 0)) for ending in endings)) for name, counts in status.variants.items()),
+            f"{status.kind}: {status.done} of {status.total} runs, {status.instances} maps, {status.budget} each",
+        )
 
     def export(self, *, csv: str | Path | None = None, parquet: str | Path | None = None) -> int:
         """Write all runs to a file, or to two; return how many there are."""

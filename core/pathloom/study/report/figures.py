@@ -28,7 +28,7 @@ from pathloom.study.study import Study
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SHEET = Sheet(width=3.7)
+PAGE = Sheet(width=3.7)
 """A page has its own headings, and is light or dark as its reader likes."""
 MOST_HISTORIES = 4000
 """Runs whose history is read; of more, as many are taken, evenly from all variants, maps and seeds."""
@@ -42,17 +42,22 @@ MOST_VARIANTS = 8
 
 @dataclass(frozen=True)
 class Plot:
-    """A figure of the page."""
+    """A figure of a study: one of ``ranks``, ``spread``, ``convergence``, ``targets``, ``profile``, ``effects``."""
 
     name: str
     title: str
-    picture: Markup
+    figure: "Figure"
     caption: str
 
+    @property
+    def picture(self) -> Markup:
+        """The figure within a page."""
+        return inline(self.figure, self.name, f"{self.title}. {self.caption}")
 
-def figures(study: Study, summary: Summary, rows: Sequence[Row]) -> list[Plot]:
-    """Return the figures that the runs of a study allow."""
-    return list(_Figures(study, summary, rows).all())
+
+def figures(study: Study, summary: Summary, rows: Sequence[Row], sheet: Sheet = PAGE) -> Iterator[Plot]:
+    """Yield the figures that the runs of a study allow."""
+    yield from _Figures(study, summary, rows, sheet).all()
 
 
 def sharpest(summary: Summary) -> Metric:
@@ -62,7 +67,8 @@ def sharpest(summary: Summary) -> Metric:
 
 
 class _Figures:
-    def __init__(self, study: Study, summary: Summary, rows: Sequence[Row]) -> None:
+    def __init__(self, study: Study, summary: Summary, rows: Sequence[Row], sheet: Sheet) -> None:
+        self.sheet = sheet
         self.study, self.summary, self.rows = study, summary, rows
         self.metric = sharpest(summary)
         self.shown = summary.variants[:MOST_VARIANTS]
@@ -77,7 +83,7 @@ class _Figures:
         yield from self.main_effects()
 
     def plot(self, name: str, title: str, figure: "Figure", caption: str) -> Plot:
-        return Plot(name, title, inline(figure, name, f"{title}. {caption}"), caption)
+        return Plot(name, title, figure, caption)
 
     def critical_difference(self) -> Iterator[Plot]:
         if not self.summary.comparisons:
@@ -91,7 +97,7 @@ class _Figures:
         how = "pairwise tests with Holm's correction" if by_pairs else "Nemenyi's critical difference"
         figure = draw.critical_difference_figure(
             ranks={name: ranking.ranks[name] for name in self.summary.variants if name in ranking.ranks},
-            groups=groups, critical=None if by_pairs else ranking.critical, sheet=SHEET,
+            groups=groups, critical=None if by_pairs else ranking.critical, sheet=self.sheet,
         )  # fmt: skip
         yield self.plot(
             "ranks",
@@ -115,7 +121,7 @@ class _Figures:
                 elif row.status != "unreachable":
                     missing[row.variant] += 1
         figure = draw.spread_figure(
-            values, missing=missing, x_label=self.metric.label, percent=self.metric.unit == "%", sheet=SHEET
+            values, missing=missing, x_label=self.metric.label, percent=self.metric.unit == "%", sheet=self.sheet
         )
         yield self.plot(
             "spread",
@@ -164,7 +170,7 @@ class _Figures:
             mine = [(e, np.asarray(lengths) / best - 1.0) for v, best, e, lengths in found if v == variant]
             it = band(mine, grid)
             curves[variant] = Curve(it.evaluations, it.median, it.low, it.high)
-        figure = draw.bands_figure(curves, y_label="gap to the optimum", percent=True, sheet=SHEET)
+        figure = draw.bands_figure(curves, y_label="gap to the optimum", percent=True, sheet=self.sheet)
         axes = figure.axes[0]
         cut = axes.get_ylim()[1] > HIGHEST
         above = f" Gaps above {100 * HIGHEST:g} % are cut off." if cut else ""
@@ -185,7 +191,7 @@ class _Figures:
         reached = reached_by_variant(found)
         curves = {v: _curve(ecdf(reached[v])) for v in self.shown if v in reached}
         spent = [row.evaluations for row in self.rows if row.evaluations]
-        figure = draw.ecdf_figure(curves, budget=float(max(spent)) if spent else None, sheet=SHEET)
+        figure = draw.ecdf_figure(curves, budget=float(max(spent)) if spent else None, sheet=self.sheet)
         return self.plot(
             "targets",
             "Targets reached (ECDF)",
@@ -204,7 +210,7 @@ class _Figures:
         if not len(finite) or (finite <= 0.0).any():
             return
         curves = {name: _curve(steps) for name, steps in performance_profile(self.shown, costs).items()}
-        figure = draw.profile_figure(curves, y_label="share of maps", sheet=SHEET)
+        figure = draw.profile_figure(curves, y_label="share of maps", sheet=self.sheet)
         yield self.plot(
             "profile",
             f"Performance profile: {metric.label}",
@@ -246,7 +252,9 @@ class _Figures:
         if not effects:
             return
         every = [v for found in levels.values() for values in found.values() for v in values]
-        figure = draw.main_effects_figure(effects, mean=float(np.mean(every)), y_label=self.metric.head, sheet=SHEET)
+        figure = draw.main_effects_figure(
+            effects, mean=float(np.mean(every)), y_label=self.metric.head, sheet=self.sheet
+        )
         yield self.plot(
             "effects",
             f"Main effects: {self.metric.label}",

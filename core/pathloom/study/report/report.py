@@ -74,7 +74,7 @@ def report(study: Study, *, baseline: str | None = None, alpha: float = 0.05) ->
         lead=_lead(found),
         verdicts=_in_order(found, metric),
         most_pairs=MOST_PAIRS,
-        figures=figures(study, found, rows),
+        figures=list(figures(study, found, rows)),
         cases=drawn,
         cases_left=max(0, len(found.variants) - MOST_CASES),
         maps=_maps(study, found, metric),

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from pathloom.study.statistics.describing import Rate, Spread, spreads
 from pathloom.study.statistics.metrics import GAPS, METRICS, SUCCESS, USUAL, Metric, metric
 from pathloom.study.statistics.runs import FOUND, UNREACHABLE, Runs
 from pathloom.study.statistics.verdicts import Verdict, verdicts
+from pathloom.study.table import html
 
 SCHEMA = "pathloom.study-summary/1"
 
@@ -66,6 +68,17 @@ class Summary:
     def comparison(self, name: str) -> Comparison:
         """Return the comparison in one metric."""
         return next(it for it in self.comparisons if it.metric.name == name)
+
+    def _repr_html_(self) -> str:
+        """Return medians and success rates by variant, and the verdicts, for notebooks."""
+        shown = [METRICS[name] for name in self.metrics if name != SUCCESS.name]
+        rows = (
+            (it.variant, f"{it.rate.found} of {it.rate.runs}", *(m.number(it.medians.get(m.name)) for m in shown))
+            for it in self.overall
+        )
+        heads = ("variant", "found", *(metric.head for metric in shown))
+        said = "".join(f"<li>{escape(verdict.text)}</li>" for verdict in self.verdicts)
+        return html(heads, rows, f"medians over {len(self.instances)} maps") + f"<ul>{said}</ul>"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON document, schema ``pathloom.study-summary/1``."""
