@@ -16,6 +16,7 @@ HOOKS = {"register": ("add",)}
 DEMANDED = {
     "Archive": {"update"}, "Claim": {"examine"}, "Collision": {"segments_free"}, "Constraint": {"violation"},
     "Control": {"advance"}, "Crossover": {"cross"}, "Deadlock": {"retreats"}, "Decoder": {"axes", "decode", "straight"},
+    "Driver": {"steer"}, "LearnedPolicy": {"estimator"}, "Policy": {"trained"}, "Rule": {"decide"},
     "Fitness": {"combine"}, "FrontPlanner": {"front", "result", "start", "step"}, "Heuristic": {"desirability"},
     "InitialPheromone": {"lay"}, "Map": {"grid"}, "Migration": {"demes", "exchange"}, "Mutation": {"apply"},
     "Objective": {"measure"}, "Observer": set(), "Pairing": {"pair"},

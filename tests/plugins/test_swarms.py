@@ -20,13 +20,14 @@ from pathloom.kernel.run import first_generator, run
 from pathloom.kernel.termination import MaxEvaluations, MaxGenerations
 from pathloom.paths.vectors.decoding import Waypoints, violations
 from pathloom.paths.vectors.planner import Judge, VectorPlanner, Vectors
+from pathloom.testing.problems import views
+from pathloom.testing.symmetry import LEAST_P, alike, features
 from pathloom_baselines.afsa import Afsa
 from pathloom_baselines.afsa_grid import AfsaGrid
 from pathloom_baselines.bezier import BezierGa
 from pathloom_baselines.gwo import Gwo, _overwritten
 from pathloom_baselines.pso import Flight, Pso
 from pathloom_baselines.ssa import Ssa
-from plugins.test_symmetry import LEAST_P, assert_same_distribution, features, views
 
 SWARMS = (Pso(), Gwo(), Ssa(), Afsa())
 NEUTRAL = (Pso(), Gwo(frame="neutral"), Ssa(frame="neutral"), Afsa())
@@ -527,7 +528,7 @@ def test_whole_runs_have_no_favourite_direction(planner):
         last = [run(view.problem, planner, 100 * turn + seed).state for seed in range(25)]
         rows = [s.trails[0] if isinstance(planner, AfsaGrid) else s.top.paths[0] for s in last]
         found.append(np.concatenate([features(view.back(row[np.newaxis]), 12) for row in rows]))
-    assert_same_distribution(found)
+    alike(found)
 
 
 # What all of them promise -----------------------------------------------------------------------

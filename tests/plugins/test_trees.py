@@ -15,10 +15,11 @@ from pathloom.exact.curves import validate_curve
 from pathloom.kernel.counting import counting
 from pathloom.kernel.run import iterate, run
 from pathloom.paths.curves import BSpline
+from pathloom.testing.problems import views
+from pathloom.testing.symmetry import alike, features
 from pathloom_hga_aco.rrt import Rrt
 from pathloom_hga_aco.s_rrt import SRrt
 from pathloom_hga_aco.shortcut import GreedyParentShortcut
-from plugins.test_symmetry import assert_same_distribution, features, views
 
 PLANNERS = [Rrt(), SRrt()]
 both = pytest.mark.parametrize("planner", PLANNERS, ids=["rrt", "s-rrt"])
@@ -303,7 +304,7 @@ def test_trees_have_no_favourite_direction(planner):
     for turn, view in enumerate(views()):
         paths = [run(view.problem, planner, 1000 * turn + seed).outcome.solution for seed in range(120)]
         found.append(np.concatenate([features(view.back(path[np.newaxis]), 12) for path in paths]))
-    assert_same_distribution(found)
+    alike(found)
 
 
 def test_counting_stays_within_a_run():

@@ -1,7 +1,5 @@
 """Every component that comes with pathloom keeps the promises that a component of anybody makes."""
 
-from pathlib import Path
-
 import pytest
 
 from pathloom.kernel.immigrants import RandomImmigrants
@@ -31,10 +29,7 @@ PROMISES += [Promise(f"filled/{one.name}", one, check) for one in FILLED for _, 
 
 
 @pytest.mark.parametrize("promise", PROMISES, ids=str)
-def test_our_components_keep_what_all_promise(
-    promise: Promise, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)  # observers write where they are
+def test_our_components_keep_what_all_promise(promise: Promise) -> None:
     try:
         promise()
     except Inapplicable as reason:

@@ -75,8 +75,11 @@ class ClosedLoop(Component):
     source: ClassVar[str] = "ours"
 
     robot: Robot = Robot()
+    """Who drives: its size and its motions."""
     sensing: Ultrasound = Ultrasound()
+    """What it knows of its surroundings."""
     hazards: Hazards = Hazards()
+    """What stands and walks about without being on the map."""
     cell: Positive = 1.0
     """Metres of a cell's side where the map has no resolution of its own."""
     step: Positive = 0.1

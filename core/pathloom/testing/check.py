@@ -1,7 +1,9 @@
 """Check: one promise of the contract, and how it is found out whether a component keeps it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import chdir, contextmanager
 from dataclasses import dataclass
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from pathloom.kernel.component import Component
@@ -13,6 +15,13 @@ class Broken(AssertionError):  # noqa: N818 - a test that fails, whatever it is 
 
 class Inapplicable(Exception):  # noqa: N818 - no error: there is nothing to be tried
     """A promise does not concern this component after all; the message says why."""
+
+
+@contextmanager
+def in_a_folder_of_its_own() -> Iterator[None]:
+    """Work in a new folder that is gone afterwards: some components, as observers, write files where they are."""
+    with TemporaryDirectory(ignore_cleanup_errors=True) as folder, chdir(folder):
+        yield
 
 
 @dataclass(frozen=True)
@@ -42,7 +51,8 @@ class Check:
         Inapplicable
             If there is nothing to be tried.
         """
-        self.examine(component)
+        with in_a_folder_of_its_own():
+            self.examine(component)
 
     def __str__(self) -> str:
         return self.name

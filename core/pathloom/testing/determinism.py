@@ -8,7 +8,7 @@ from functools import cache
 
 from pathloom.kernel.component import Component
 from pathloom.testing.calls import called
-from pathloom.testing.check import Broken, Inapplicable, expect, promise
+from pathloom.testing.check import Broken, Inapplicable, expect, in_a_folder_of_its_own, promise
 from pathloom.testing.plain import Plain, plain
 from pathloom.testing.trial import carried_out, finished, outcome, some, trials
 
@@ -56,7 +56,8 @@ def _outcomes(frozen: bytes) -> str | list[Plain]:
         component = pickle.loads(frozen)  # noqa: S301 - sent by the process that started this one
     except Exception as error:
         return f"{type(error).__name__}: {error}"
-    return [outcome(carried_out(component, call)) for call in some(component)]
+    with in_a_folder_of_its_own():  # a new process begins where its parent began
+        return [outcome(carried_out(component, call)) for call in some(component)]
 
 
 @cache

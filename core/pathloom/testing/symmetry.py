@@ -47,12 +47,12 @@ def symmetric(component: Any) -> None:
     """
     component = in_integers(component)
     if isinstance(component, Sampling):
-        _alike(_sampled(component))
+        alike(_sampled(component))
     elif isinstance(component, Crossover):
         pairs = np.arange(300).reshape(-1, 2)
-        _alike(_varied(lambda parents, problem, rng: component.cross(parents, pairs, problem, rng)))
+        alike(_varied(lambda parents, problem, rng: component.cross(parents, pairs, problem, rng)))
     elif isinstance(component, Mutation):
-        _alike(_varied(lambda parents, problem, rng: _mutated(component, parents, problem, rng)))
+        alike(_varied(lambda parents, problem, rng: _mutated(component, parents, problem, rng)))
     elif isinstance(component, Repair):
         _repaired(component)
     elif isinstance(component, Objective):
@@ -60,7 +60,7 @@ def symmetric(component: Any) -> None:
     elif isinstance(component, Collision):
         _tested(component)
     else:
-        _alike(_planned(component))
+        alike(_planned(component))
 
 
 def in_integers(component: Any) -> Any:
@@ -85,7 +85,7 @@ def features(population: Population, cols: int = COLS) -> Features:
     return np.stack((steps.sum(axis=1), rows.sum(axis=1) / counts, columns.sum(axis=1) / counts), axis=1).round(9)
 
 
-def _alike(samples: list[Features]) -> None:
+def alike(samples: list[Features]) -> None:
     """Raise unless the features of all sides have one distribution."""
     for side, sample in enumerate(samples[1:], 1):
         for name, ours, theirs in zip(("length", "mean row", "mean column"), samples[0].T, sample.T, strict=True):
@@ -147,7 +147,7 @@ def _repaired(component: Repair) -> None:
         again = component.apply(sides[0].there(first), sides[0].problem, np.random.default_rng(8))
         paths = paths_in(results[0])
         if paths_in(again) != paths:  # it draws something
-            _alike([features(population) for population in results])
+            alike([features(population) for population in results])
             continue
         for side, result in enumerate(results):
             for one, other in zip(paths, paths_in(result), strict=True):

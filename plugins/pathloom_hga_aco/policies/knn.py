@@ -30,6 +30,7 @@ class Knn(LearnedPolicy):
     neighbours: Count = 5
     """The paper gives no number."""
     weights: Literal["inverse-square", "inverse", "uniform"] = "inverse-square"
+    """What a neighbour counts by: its distance squared, its distance, or nothing."""
 
     def estimator(self, seed: int) -> Any:
         from sklearn.neighbors import KNeighborsClassifier

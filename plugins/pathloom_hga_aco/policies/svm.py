@@ -17,6 +17,7 @@ class Svm(LearnedPolicy):
     source: ClassVar[str] = "Song et al. 2021, section 3.1, eqs. (2) and (3)"
 
     kernel: Literal["linear", "rbf"] = "linear"
+    """Whether classes are parted by planes, or by radial basis functions."""
     penalty: Positive = 1.0
     """C of eq. (3); the paper gives none."""
 
