@@ -2,9 +2,11 @@
 
 import atexit
 import multiprocessing
+import os
 import pickle
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
+from tempfile import gettempdir
 
 from pathloom.kernel.component import Component
 from pathloom.testing.calls import called
@@ -56,14 +58,15 @@ def _outcomes(frozen: bytes) -> str | list[Plain]:
         component = pickle.loads(frozen)  # noqa: S301 - sent by the process that started this one
     except Exception as error:
         return f"{type(error).__name__}: {error}"
-    with in_a_folder_of_its_own():  # a new process begins where its parent began
+    with in_a_folder_of_its_own():
         return [outcome(carried_out(component, call)) for call in some(component)]
 
 
 @cache
 def _pool() -> ProcessPoolExecutor:
-    """Return the other process, one for all components."""
-    pool = ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn"))
+    """Return the other process, one for all components. The folder in which it begins will be gone: it leaves it."""
+    spawn = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(1, mp_context=spawn, initializer=os.chdir, initargs=(gettempdir(),))
     atexit.register(pool.shutdown)
     return pool
 
