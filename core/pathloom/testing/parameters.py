@@ -9,7 +9,7 @@ from pathloom.kernel.component import Component, Parameter, parameters
 from pathloom.kernel.termination import MaxGenerations, Termination
 from pathloom.paths.objectives import Length
 from pathloom.testing.check import Broken, expect, promise
-from pathloom.testing.values import outside, within
+from pathloom.testing.values import beside, outside, within
 
 
 @promise("parameters-refused")
@@ -27,14 +27,14 @@ def refused(component: Component) -> None:
 
 @promise("parameters-taken")
 def taken(component: Component) -> None:
-    """A value within its range, its own at least, is taken; others that do not go together get a ConfigError."""
+    """A value within its range is taken, or refused with a ConfigError where two do not go together."""
     for parameter in parameters(type(component)):
         if parameter.slot or parameter.slots:
             continue
-        values = [*within(parameter.hint), getattr(component, parameter.name)]
+        values = [*within(parameter.hint), *beside(getattr(component, parameter.name), parameter.hint)]
         refusals = [_told(component, parameter, value) for value in values]
         expect(
-            None in refusals,
+            not values or None in refusals,
             f"expected {parameter.name} to take {parameter.allowed}; found all of {values} refused: {refusals[:1]}",
         )
 

@@ -27,6 +27,24 @@ def within(hint: Any) -> Iterator[Any]:
             yield from _numbers(*number)
 
 
+def beside(value: Any, hint: Any) -> Iterator[Any]:
+    """Yield the numbers next to one that a component has: where parameters depend on each other these still fit.
+
+    Of a text it is that text itself: which ones are allowed, its type does not say.
+    """
+    for one in alternatives(hint):
+        if isinstance(value, bool | None):
+            continue
+        if one is str and isinstance(value, str):
+            yield value
+        elif (number := _number(one)) is not None and isinstance(value, int | float):
+            kind, limits = number
+            low, high = _borders(limits)
+            for near in (value - 1, value + 1) if kind is int else (value * 0.99, value * 1.01):
+                if (low is None or near > low) and (high is None or near < high):
+                    yield kind(near)
+
+
 def outside(hint: Any) -> Iterator[Any]:
     """Yield values that a type does not allow: just beyond its borders, and of other types."""
     many = alternatives(hint)
