@@ -43,6 +43,8 @@ class Page:
         """Open a map from a file."""
         with self.page.expect_response("**/look"):
             self.page.set_input_files("#map-file", write(folder, "drawn.map", moving_ai(*rows)))
+        label = re.compile(f"Map of {len(rows)} rows and {len(rows[0])} columns")
+        self.expect(self.page.locator(".stage canvas").first).to_have_attribute("aria-label", label)
 
     def at(self, row: int, col: int, lane: int = 0) -> tuple[float, float]:
         """Return where a cell is on the screen."""
@@ -252,7 +254,7 @@ def test_all_can_be_done_by_keyboard(open_page, tmp_path):
     canvas.focus()
     for key in ("ArrowUp", "ArrowRight", "Space", "ArrowUp", "s", "Shift+ArrowRight", "g"):
         page.keyboard.press(key)
-    assert re.search(r"start 5, 1, goal 5, 6$", canvas.get_attribute("aria-label"))
+    page.expect(canvas).to_have_attribute("aria-label", re.compile(r"start 5, 1, goal 5, 6$"))
     expected = np.zeros((8, 8), bool)
     expected[6, 1] = True
     page.wait_for_timeout(150)
