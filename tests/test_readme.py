@@ -7,6 +7,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import pages
 import pytest
 
 from pathloom.kernel.planner import Planner
@@ -17,8 +18,7 @@ PAGES = ("README.md", "plugins/README.md")
 
 
 def blocks(page, language):
-    text = (ROOT / page).read_text(encoding="utf-8")
-    return re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    return [text for written, text in pages.blocks_of(ROOT / page) if written == language]
 
 
 def test_the_commands_of_the_first_steps_run_in_this_order(tmp_path):

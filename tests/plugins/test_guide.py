@@ -1,15 +1,11 @@
 """What the guide to plugins shows works as shown: its files make a plugin, its commands and scripts use it."""
 
 import json
-import os
-import re
-import shlex
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
 import jsonschema
+import pages
 import pytest
 
 from pathloom.kernel.component import Component
@@ -17,29 +13,9 @@ from pathloom.kernel.registry import default_registry
 from pathloom.schema import schema_of_config
 
 GUIDE = Path(__file__).parents[2] / "plugins" / "README.md"
-BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-FILE = re.compile(r"# ([\w/]+\.(?:py|toml))\n")
-BLOCKS = [(language, text) for language, text in BLOCK.findall(GUIDE.read_text(encoding="utf-8"))]
+BLOCKS = pages.blocks_of(GUIDE)
 
-RUN = '''
-"""Run commands and scripts one after the other, in one process."""
-
-import json, sys
-from pathlib import Path
-
-from pathloom.cli import main
-
-for kind, text in json.loads(Path("steps.json").read_text()):
-    if kind == "script":
-        exec(compile(text, "script", "exec", dont_inherit=True), {"__name__": "script"})
-        continue
-    sys.argv = text
-    try:
-        main()
-    except SystemExit as left:
-        assert not left.code, (text, left.code)
-    print("done:", *text, flush=True)
-
+AND_THEN = """
 import pytest
 
 from pathloom.kernel.registry import default_registry
@@ -47,17 +23,14 @@ from pathloom.schema import schema_of_config
 
 Path("schema.json").write_text(json.dumps(schema_of_config(default_registry())))
 print("contract:", int(pytest.main(["-q", "-p", "no:cacheprovider", "-k", "not process", "tests"])), flush=True)
-'''
+"""
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """A folder with all files that the guide shows, its plugin installed there."""
     folder = tmp_path_factory.mktemp("guide")
-    for _, text in BLOCKS:
-        if named := FILE.match(text):
-            (folder / named[1]).parent.mkdir(exist_ok=True)
-            (folder / named[1]).write_text(text, encoding="utf-8")
+    pages.write_files(BLOCKS, folder)
     project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
     info = folder / f"{project['name'].replace('-', '_')}-{project['version']}.dist-info"
     info.mkdir()
@@ -71,29 +44,13 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def ran(folder):
     """What the commands and scripts of the guide said, in their order."""
-    steps = []
-    for language, text in BLOCKS:
-        if language == "console":
-            lines = [shlex.split(line.removeprefix("$ ")) for line in text.splitlines()]
-            assert all(line[0] == "pathloom" for line in lines)
-            steps += [("command", line) for line in lines]
-        elif not FILE.match(text):
-            assert language == "python", text
-            steps.append(("script", text))
-    (folder / "steps.json").write_text(json.dumps(steps))
-    (folder / "run.py").write_text(f"if __name__ == '__main__':\n{'    '.join(RUN.splitlines(keepends=True))}")
-    env = {**os.environ, "PYTHONPATH": str(folder)}
-    done = subprocess.run(
-        [sys.executable, "run.py"], cwd=folder, env=env, capture_output=True, text=True, encoding="utf-8", check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.count("\ndone: ") == sum(kind == "command" for kind, _ in steps) >= 6
-    return done.stdout
+    assert sum(language == "console" for language, _ in BLOCKS) >= 4
+    return pages.run(BLOCKS, folder, AND_THEN)
 
 
 def test_every_block_is_a_file_a_command_or_a_script():
     assert {language for language, _ in BLOCKS} == {"console", "python", "toml"}
-    assert all(FILE.match(text) for language, text in BLOCKS if language == "toml")
+    assert all(pages.FILE.match(text) for language, text in BLOCKS if language == "toml")
 
 
 def test_the_commands_and_scripts_run(ran, folder):
@@ -110,7 +67,7 @@ def test_the_contract_of_the_guide_holds(ran):
 
 def test_the_configs_of_the_pages_satisfy_the_schema_as_an_editor_sees_it(ran, folder):
     readme = GUIDE.parents[1] / "README.md"
-    (shown,) = (text for language, text in BLOCK.findall(readme.read_text(encoding="utf-8")) if language == "toml")
+    (shown,) = (text for language, text in pages.blocks_of(readme) if language == "toml")
     validator = jsonschema.Draft202012Validator(schema_of_config(default_registry()))
     assert validator.is_valid(tomllib.loads(shown))
     validator = jsonschema.Draft202012Validator(json.loads((folder / "schema.json").read_text()))
