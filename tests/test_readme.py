@@ -14,7 +14,7 @@ from pathloom.kernel.planner import Planner
 from pathloom.kernel.registry import default_registry
 
 ROOT = Path(__file__).parent.parent
-PAGES = ("README.md", "plugins/README.md")
+PAGES = ("README.md", *sorted(str(page.relative_to(ROOT)) for page in ROOT.glob("[dp]*/**/*.md")))
 
 
 def blocks(page, language):
