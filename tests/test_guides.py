@@ -12,7 +12,7 @@ ROOT = Path(__file__).parent.parent
 GUIDES = sorted((ROOT / "docs").glob("from-*.md"))
 PLUGINS = [page for page in sorted((ROOT / "plugins").glob("*/README.md")) if pages.blocks_of(page)]
 LEFT = {
-    "from-nav2": {"path.csv", "path.json", "dense.json"},
+    "from-nav2": {"path.csv", "path.json", "curve.json", "dense.json"},
     "from-pymoo": set(),
     "from-python-motion-planning": {"hall.csv", "hall.png"},
 }
