@@ -1,6 +1,6 @@
 """The contract kit: what every component promises, as checks that anybody can run on components of his own.
 
-    @pytest.mark.parametrize(("component", "check"), list(checks_for(Jitter)), ids=lambda one: one.name)
+    @pytest.mark.parametrize(("component", "check"), checks_for(Jitter), ids=lambda one: one.name)
     def test_jitter(component, check):
         check(component)
 

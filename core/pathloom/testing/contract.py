@@ -1,6 +1,5 @@
 """Contract: all checks, and which of them concern a component."""
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 from pathloom.errors import PathloomError
@@ -52,8 +51,8 @@ MADE = Check(
 )
 
 
-def checks_for(component: Component | type[Component] | str) -> Iterator[Pair]:
-    """Yield the checks that concern a component, each with the component, as `pytest.mark.parametrize` takes them.
+def checks_for(component: Component | type[Component] | str) -> tuple[Pair, ...]:
+    """Return the checks that concern a component, each with the component, as `pytest.mark.parametrize` takes them.
 
     Parameters
     ----------
@@ -67,17 +66,13 @@ def checks_for(component: Component | type[Component] | str) -> Iterator[Pair]:
         If no component is called so.
     """
     if isinstance(component, str):
-        for one in _called(component):
-            yield from checks_for(one)
-        return
+        return tuple(pair for one in _called(component) for pair in checks_for(one))
     if isinstance(component, type):
         try:
             component = made(component)
         except PathloomError:
-            yield Pair(component, MADE)  # and nothing else can be found out
-            return
-    yield Pair(component, MADE)
-    yield from (Pair(component, check) for check in CHECKS if check.concerns(component))
+            return (Pair(component, MADE),)  # nothing else can be found out
+    return tuple(Pair(component, check) for check in (MADE, *CHECKS) if check.concerns(component))
 
 
 def _called(name: str) -> list[type[Component]]:
