@@ -44,6 +44,22 @@ def test_evaluate_draws_and_shows_a_table(cli, readings, folder):
     assert (folder / "c.json").exists()
 
 
+def test_the_worst_and_the_best_of_several_hold_outs_are_shown(cli, readings):
+    done = cli("policy", "evaluate", *SHORT, "--policies", "four-leaves", "--runs", 3, "--quiet")
+    assert "means of 3 draws" in done.out
+    assert done.out.splitlines()[-1].split()[0] == "four-leaves"
+    each = cli("policy", "evaluate", *SHORT, "--policies", "four-leaves", "--runs", 3, "--json").document
+    found = each["policies"]["four-leaves"]["holdout"]
+    assert f"{100 * found['mean']:.1f} [{100 * found['least']:.1f}, {100 * found['most']:.1f}]" in done.out
+
+
+def test_a_small_tree_is_shown(cli, readings, folder):
+    tree = ("policy", "train", "--policy", "sklearn.tree.DecisionTreeClassifier", *SHORT, "--out", "tree.skops")
+    assert "front <= 0.9" in cli(*tree).out
+    assert "class: Sharp-Right-Turn" in cli(*tree).out
+    assert "front" not in cli("policy", "train", "--policy", "gnb", *SHORT, "--out", "gnb.skops").out
+
+
 def test_a_trained_model_is_measured_and_drives(cli, readings, folder):
     trained = cli("policy", "train", "--policy", "gnb", *SHORT, "--out", "gnb.skops", "--json").document
     assert trained["examples"]["rows"] == 60
@@ -62,6 +78,12 @@ def test_drives_are_the_same_for_the_same_seed_and_compared(cli, folder):
     assert set(first["timing"]) == set(first["policies"])
 
 
+def test_no_clearance_is_nought_and_not_below(cli, folder):
+    done = cli(*DRIVE, "--policies", "pure-pursuit", "--set", "hazards.standing=6", "--json")
+    assert done.document["policies"]["pure-pursuit"]["ends"] == {"collided": 2}
+    assert "-0.0," not in done.out
+
+
 def test_a_drive_becomes_a_picture_or_a_film(cli, folder):
     for name, head in (("drive.png", b"\x89PNG"), ("drive.gif", b"GIF8")):
         done = cli(*DRIVE, "--policies", "four-leaves,pure-pursuit", "--plot", name, "--dark")
@@ -71,6 +93,7 @@ def test_a_drive_becomes_a_picture_or_a_film(cli, folder):
 
 BAD = {
     ("evaluate", *SHORT, "--policies", "rff"): "--policies: no policy is called 'rff'; did you mean 'hga-aco/rf'?",
+    ("evaluate", *SHORT, "--policies", ""): "--policies: found none or an empty name",
     ("evaluate", *SHORT, "--policies", "gnb,gnb"): "--policies: found 'gnb' twice",
     ("evaluate", *SHORT, "--policies", "sklearn.svm.Svc"): "did you mean 'sklearn.svm.SVC'?",
     (
@@ -86,6 +109,16 @@ BAD = {
     ("evaluate", *SHORT, "--model", "readings.data"): "found no zip file, or a damaged one",
     ("evaluate", *SHORT, "--seed", "-1"): "seed is an integer in [0, inf); got -1",
     ("train", *SHORT): "--out: found none",
+    (
+        "train",
+        "--policy",
+        "knn",
+        *SHORT,
+        "--set",
+        "knn.neighbours=99",
+        "--out",
+        "m.skops",
+    ): "not trained on 60 examples",
     ("train", "--policy", "four-leaves", *SHORT, "--out", "m.skops"): "a rule that has nothing to learn",
     ("drive", "--radius", "-1"): "--set robot.radius",
     ("drive", "--policies", "gard:rf"): "no driver is called 'gard'",

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pathloom.study.instances import Instance
 
 PLOTS = (".png", ".svg", ".pdf", ".gif")
-DRIVES, PLANNER, MAPS = "rf,four-leaves,pure-pursuit,dynamic-window", "dijkstra", "blocks-30:8%"
+DRIVES, PLANNER, MAPS = "rf,guarded:rf,pure-pursuit,dynamic-window", "dijkstra", "blocks-30:8%"
 
 
 @click.command("drive")
@@ -276,4 +276,6 @@ def _draw(drives: "Drives", options: Mapping[str, Any]) -> None:
         name = next(iter(moments))
         animate_drive(moments[name], options["plot"], title=name, end=ends[name], step=loop.step, **shared)
         return
-    save(drive_figure(moments, ends, title=f"One drive on {instance.name}", **shared), options["plot"])
+    standing = next(iter(again.values())).standing
+    figure = drive_figure(moments, ends, standing=standing, title=f"One drive on {instance.name}", **shared)
+    save(figure, options["plot"])
