@@ -67,6 +67,15 @@ def test_a_trained_model_is_measured_and_drives(cli, readings, folder):
     assert found["policies"]["gnb"]["all"]["accuracy"] == trained["accuracy_on_its_examples"]
     drives = cli(*DRIVE, "--policies", "pure-pursuit", "--model", "gnb.skops", "--json").document
     assert set(drives["policies"]) == {"pure-pursuit", "gnb.skops"}
+    asked = ("--policies", "guarded:gnb.skops", "--model", "gnb.skops", "--json")
+    guarded = cli(*DRIVE, *asked).document["policies"]["guarded:gnb.skops"]
+    assert guarded["driver"]["use"] == "guarded"
+    assert guarded["trained_on"]["sha256"] == trained["examples"]["sha256"]
+
+
+def test_a_model_in_a_file_called_like_a_policy_does_not_drive(cli, refused, readings):
+    cli("policy", "train", "--policy", "gnb", *SHORT, "--out", "gnb")
+    assert "which is a name already" in refused("policy", "drive", "--model", "gnb")
 
 
 def test_drives_are_the_same_for_the_same_seed_and_compared(cli, folder):

@@ -129,6 +129,12 @@ def test_generated_examples_depend_on_the_generator_alone_and_obey_their_expert(
     assert first.distances.max() <= 5.0
 
 
+def test_a_driven_expert_finds_walls_and_takes_all_four_actions():
+    rng = np.random.default_rng(0)
+    examples = pl.generate(pl.load_map("blocks-30:15%"), 3000, FourLeaves(), rng=rng, driven=True)
+    assert np.bincount(examples.actions, minlength=4).min() > 30
+
+
 def test_a_map_without_room_is_refused():
     with pytest.raises(pl.ConfigError, match="hardly any room"):
         pl.generate(pl.OccupancyGrid(np.ones((4, 4))), 1, FourLeaves(), rng=np.random.default_rng(0))
