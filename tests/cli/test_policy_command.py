@@ -1,5 +1,6 @@
 """``pathloom policy``: train, evaluate, drive, and one line for what cannot be."""
 
+import numpy as np
 import pytest
 
 from .conftest import write
@@ -91,6 +92,24 @@ def test_no_clearance_is_nought_and_not_below(cli, folder):
     done = cli(*DRIVE, "--policies", "pure-pursuit", "--set", "hazards.standing=6", "--json")
     assert done.document["policies"]["pure-pursuit"]["ends"] == {"collided": 2}
     assert "-0.0," not in done.out
+
+
+def test_only_a_path_nearer_to_walls_than_the_radius_is_noted(cli, folder):
+    from PIL import Image
+
+    grey = np.full((60, 60), 254, np.uint8)
+    grey[20:60, 30] = 0
+    Image.fromarray(grey).save(folder / "office.png")
+    facts = (
+        "image: office.png\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n"
+    )
+    write(folder / "office.yaml", facts)
+    ends = ("--maps", "office.yaml", "--start", "50,10", "--goal", "50,50")
+    asked = ("policy", "drive", *ends, "--policies", "dynamic-window", "--episodes", 1)
+    assert "nearer than" not in cli(*asked).err
+    asked = ("policy", "drive", "--maps", "random-20:15%", "--policies", "dynamic-window", "--episodes", 1)
+    assert "nearer than" not in cli(*asked).err
+    assert "nearer than the robot's radius" in cli(*asked, "--planner", "any-angle").err
 
 
 def test_a_drive_becomes_a_picture_or_a_film(cli, folder):

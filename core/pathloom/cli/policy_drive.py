@@ -208,15 +208,17 @@ def _planned(instance: "Instance", options: Mapping[str, Any], seed: int) -> "Re
 
 def _notes(drives: "Drives") -> list[str]:
     """Return what a reader of the numbers ought to know."""
-    from pathloom.local.surroundings import cell_side
+    from pathloom.local.driving import points_along
+    from pathloom.local.surroundings import Surroundings, cell_side
 
     notes = []
     radius = drives.loop.robot.radius
     for instance, path in zip(drives.instances, drives.paths, strict=True):
-        room = path.metrics.get("min_clearance")
-        metres = None if room is None else room * cell_side(instance.problem.grid, drives.loop.cell)
-        if metres is not None and metres < radius:
-            near = f"the path comes as near as {metres:.2f} m to a wall"
+        grid, cell = instance.problem.grid, cell_side(instance.problem.grid, drives.loop.cell)
+        walls = Surroundings(grid, cell)  # the path's own clearance is that to obstacles grown by the radius
+        room = min(walls.clearance(x, y, radius) for x, y in points_along(path.path, grid.height, cell))  # type: ignore[arg-type]
+        if room < radius:
+            near = f"the path comes as near as {room:.2f} m to a wall"
             notes.append(
                 f"{instance.name}: {near}, nearer than the robot's radius of {radius:g} m; try --planner dijkstra"
             )
