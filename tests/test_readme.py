@@ -65,10 +65,19 @@ def test_two_commands_do_all_the_set_up():
 @pytest.mark.parametrize("page", PAGES)
 def test_links_lead_somewhere(page):
     text = re.sub(r"^```.*?^```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-    for target in re.findall(r"\]\(([^)#]+)\)|(?:src|srcset)=\"([^\"]+)\"", text):
-        name = target[0] or target[1]
+    for target in re.findall(r"\]\(([^)]+)\)|(?:src|srcset)=\"([^\"]+)\"", text):
+        name, _, anchor = (target[0] or target[1]).partition("#")
         if not name.startswith("http"):
-            assert (ROOT / page).parent.joinpath(name).exists(), name
+            file = (ROOT / page).parent / name if name else ROOT / page
+            assert file.exists(), name
+            assert not anchor or anchor in anchors(file), f"{name}#{anchor}"
+
+
+def anchors(file):
+    """Return the anchors that GitHub gives to the headings of a page."""
+    text = re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    heads = re.findall(r"^#+ +(.+)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", head.strip().lower()).replace(" ", "-") for head in heads}
 
 
 def test_the_table_of_planners_names_all_of_them():

@@ -8,6 +8,7 @@ import pytest
 import pathloom as pl
 from pathloom.local.actions import Action
 from pathloom.local.drivers.avoiding import Avoiding
+from pathloom.local.drivers.driver import View
 from pathloom.local.drivers.dynamic_window import DynamicWindow
 from pathloom.local.drivers.guarded import Guarded
 from pathloom.local.drivers.pure_pursuit import PurePursuit
@@ -43,6 +44,23 @@ def test_in_an_empty_room_every_driver_arrives_by_the_path(driver):
     assert drive.end == "reached"
     assert drive.length == pytest.approx(9 * math.sqrt(2), abs=0.06)
     assert drive.travelled == pytest.approx(drive.length, rel=0.1)
+
+
+def test_the_guard_lets_a_robot_through_a_door():
+    walls = np.zeros((9, 7), bool)
+    walls[4] = True
+    walls[4, 3] = False
+    drive = FREE.drive(pl.OccupancyGrid(walls), [(7, 1), (5, 3), (3, 3), (1, 1)], Guarded(), FourLeaves().decide)
+    assert drive.end == "reached"
+
+
+def test_a_threat_is_what_a_motion_comes_too_near_to():
+    readings = np.full(24, 5.0)
+    readings[12], readings[18] = 0.6, 0.35  # ahead, and to the left
+    view = View(Pose(0.0, 0.0, 0.0), readings, (1.0, 0.0), 1.0, Robot(), 5.0)
+    assert view.threat(Motion(0.5, 0.0), 0.6, 0.1) == pytest.approx((0.6, 0.0))
+    assert view.threat(Motion(0.5, 0.0), 0.2, 0.1) is None  # still far enough ahead, and no nearer to the left
+    assert view.threat(Motion(0.0, 1.0), 0.6, 0.1) is None
 
 
 def test_who_looks_for_nothing_drives_into_what_stands_in_the_way_and_who_looks_does_not():

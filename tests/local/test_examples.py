@@ -1,5 +1,7 @@
 """Examples: read from files with all their quirks, or made without end."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -81,7 +83,7 @@ def test_openml_is_asked_by_name_and_its_numbers_are_told_by_how_often_they_occu
 
     monkeypatch.setattr("sklearn.datasets.fetch_openml", fetch)
     examples = fetch_examples("openml")
-    assert (asked["name"], asked["version"]) == ("wall-robot-navigation", 2)
+    assert (asked["name"], asked["version"]) == ("wall-robot-navigation", 3)
     assert examples.actions[[0, 826, 2923, 5455]].tolist() == [1, 2, 3, 0]
     with pytest.raises(pl.ConfigError, match="openml:3: found no such data"):
         fetch_examples("openml:3")
@@ -90,13 +92,27 @@ def test_openml_is_asked_by_name_and_its_numbers_are_told_by_how_often_they_occu
         fetch_examples("openml")
 
 
-def test_no_network_is_one_line(monkeypatch):
+def test_of_the_versions_on_openml_the_one_with_as_many_distances_is_taken(monkeypatch):
+    class Fetched:
+        target = np.repeat(["1", "2", "3", "4"], [826, 2097, 328, 2205])
+
+        def __init__(self, version):
+            self.data = np.ones((5456, {1: 24, 2: 4, 3: 2}[version]))
+
+    monkeypatch.setattr("sklearn.datasets.fetch_openml", lambda name, *, version, **_: Fetched(version))
+    for width in (2, 4, 24):
+        assert fetch_examples(f"openml:{width}").width == width
+
+
+def test_no_network_is_one_line(monkeypatch, recwarn):
     def fetch(name, **options):
+        warnings.warn("trying again", stacklevel=1)
         raise OSError("no route\nto host")
 
     monkeypatch.setattr("sklearn.datasets.fetch_openml", fetch)
     with pytest.raises(pl.ConfigError, match="openml: not fetched \\(no route to host\\)"):
         fetch_examples("openml")
+    assert not recwarn.list
 
 
 @pytest.mark.parametrize("driven", [False, True])
@@ -111,6 +127,12 @@ def test_generated_examples_depend_on_the_generator_alone_and_obey_their_expert(
     assert first.width == width
     assert FourLeaves().decide(first.distances).tolist() == first.actions.tolist()
     assert first.distances.max() <= 5.0
+
+
+def test_a_driven_expert_finds_walls_and_takes_all_four_actions():
+    rng = np.random.default_rng(0)
+    examples = pl.generate(pl.load_map("blocks-30:15%"), 3000, FourLeaves(), rng=rng, driven=True)
+    assert np.bincount(examples.actions, minlength=4).min() > 30
 
 
 def test_a_map_without_room_is_refused():

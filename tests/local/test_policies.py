@@ -121,6 +121,9 @@ def test_what_cannot_be_learned_from_is_refused():
     alike = pl.Examples(np.ones((9, 2)), np.zeros(9, int))
     with pytest.raises(pl.ConfigError, match="found the action 0 only"):
         policy("gnb").trained(alike, np.random.default_rng(0))
+    few = pl.Examples(np.ones((9, 2)), np.arange(9) % 4)
+    with pytest.raises(pl.ConfigError, match="knn: not trained on 9 examples"):
+        policy("knn", neighbours=10).trained(few, np.random.default_rng(0))
     with pytest.raises(pl.ConfigError, match="allowed \\(n, k\\)"):
         pl.Examples(np.ones((9, 3)), np.zeros(9, int))
 

@@ -73,6 +73,24 @@ def test_a_model_of_another_version_is_refused(saved):
     assert "schema: found 'pathloom.policy-model/9'" in refusal(saved)
 
 
+@pytest.mark.parametrize("facts", [{"examples": None}, {"examples": {"rows": 3}}, {"sha256": None}, {"distances": [4]}])
+def test_a_manifest_that_lacks_something_is_refused_for_it(saved, facts):
+    changed(saved, **in_manifest(**facts))
+    assert f"manifest.json: {next(iter(facts))}: found" in refusal(saved)
+
+
+def test_a_model_of_actions_that_there_are_not_or_of_too_few_numbers_is_refused(tmp_path, examples):
+    file = tmp_path / "gnb.skops"
+    for name, numbers, says in (
+        ("classes_", np.array([0, 1, 2, 7]), "found actions that there are not, allowed 0 to 3"),
+        ("theta_", np.ones((2, 2)), "found what cannot decide"),
+    ):
+        model = policy("gnb").trained(examples, np.random.default_rng(0))
+        setattr(model.classifier, name, numbers)
+        save_model(model, file, examples, 0)
+        assert says in refusal(file)
+
+
 def test_what_is_no_model_is_refused(tmp_path):
     file = tmp_path / "no.skops"
     for content in (b"", b"no zip", b"PK\x03\x04" + bytes(40)):

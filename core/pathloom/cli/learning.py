@@ -25,7 +25,7 @@ DATA = (
     ),
     click.option("--examples", type=int, default=8000, show_default=True, help="How many are generated."),
     click.option("--expert", default="four-leaves", show_default=True, help="The rule that labels generated ones."),
-    click.option("--where", default="blocks-30:15%", show_default=True, metavar="NAME|FILE",
+    click.option("--where", default="rooms-30:4", show_default=True, metavar="NAME|FILE",
                  help="The map on which they are generated."),
     click.option("--distances", type=int, default=4, show_default=True, help="Distances of each: 2, 4 or 24."),
     click.option("--driven", is_flag=True, help="The expert drives about; else places are drawn at random."),

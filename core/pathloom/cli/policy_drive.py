@@ -13,14 +13,15 @@ from pathloom.errors import ConfigError
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from pathloom.local import ClosedLoop, Policy
+    from pathloom.kernel.component import Component
+    from pathloom.local import ClosedLoop
     from pathloom.local.drivers.driver import Driver
     from pathloom.result import Result
     from pathloom.study.driving import Drives, Team
     from pathloom.study.instances import Instance
 
 PLOTS = (".png", ".svg", ".pdf", ".gif")
-DRIVES, PLANNER, MAPS = "rf,four-leaves,pure-pursuit,dynamic-window", "dijkstra", "blocks-30:8%"
+DRIVES, PLANNER, MAPS = "rf,guarded:rf,pure-pursuit,dynamic-window", "dijkstra", "blocks-30:8%"
 
 
 @click.command("drive")
@@ -31,7 +32,11 @@ DRIVES, PLANNER, MAPS = "rf,four-leaves,pure-pursuit,dynamic-window", "dijkstra"
     metavar="NAME|DRIVER|DRIVER:NAME,…",
     help="Who drives: a policy (with the driver avoiding), a driver, or both, as in guarded:rf.",
 )
-@click.option("--model", metavar="FILE", help="A trained model, which drives as well, under its file's name.")
+@click.option(
+    "--model",
+    metavar="FILE",
+    help="A trained model, which drives as well, under its file's name; in --policies also guarded:rf.skops.",
+)
 @asking.options(*learning.DATA, learning.SET)
 @click.option("--maps", "--map", "maps", metavar="NAME|FILE,…", help=f"Maps; default {MAPS}.")
 @click.option("--start", metavar="ROW,COL|CORNER", help="Where to start on every map; default bottom-left.")
@@ -100,12 +105,20 @@ def _teams(options: Mapping[str, Any], seed: int) -> "tuple[ClosedLoop, dict[str
     from pathloom.cli import console
     from pathloom.kernel.compose import freeze
     from pathloom.kernel.registry import default_registry
-    from pathloom.local import ClosedLoop, LearnedPolicy, Model, Rule, load_model
+    from pathloom.local import ClosedLoop, LearnedPolicy, Model, Policy, Rule, load_model
+    from pathloom.local.drivers.driver import Driver
     from pathloom.study.driving import Team
 
     names = learning.names_in(options["policies"], "--policies")
     who = {name: _parts(name) for name in names}
-    policies: dict[str, Policy] = {p: learning.policy_of(p, "--policies") for _, p in who.values() if p}
+    file = "" if options["model"] is None else Path(options["model"]).name
+    if file in _called(Policy) | _called(Driver):
+        raise ConfigError(f"--model: found {file!r}, which is a name already; call the file otherwise")
+    if file and file not in {policy for _, policy in who.values()}:
+        who[file] = ("avoiding", file)
+    policies: dict[str, Policy] = {
+        p: learning.policy_of(p, "--policies") for _, p in who.values() if p not in ("", file)
+    }
     drivers: dict[str, Driver] = {d: _driver(d) for d, _ in who.values()}
     settings = list(options["settings"])
     if options["radius"] is not None:
@@ -113,6 +126,10 @@ def _teams(options: Mapping[str, Any], seed: int) -> "tuple[ClosedLoop, dict[str
     loop = learning.changed(settings, ClosedLoop(), policies, drivers)
     decides: dict[str, Any] = {name: it.decide for name, it in policies.items() if isinstance(it, Rule)}
     facts: dict[str, dict[str, Any]] = {}
+    if file:
+        model, manifest = load_model(options["model"])
+        decides[file] = model.on_readings
+        facts[file] = {"policy": manifest["policy"], "trained_on": manifest["examples"]}
     if any(isinstance(policy, LearnedPolicy) for policy in policies.values()):
         examples = learning.examples_of(options, loop, seed)
         if not options["quiet"]:
@@ -129,15 +146,6 @@ def _teams(options: Mapping[str, Any], seed: int) -> "tuple[ClosedLoop, dict[str
         name: Team(drivers[driver], decides[policy] if policy else None, facts.get(policy, {}))
         for name, (driver, policy) in who.items()
     }
-    if options["model"] is not None:
-        model, manifest = load_model(options["model"])
-        name = Path(options["model"]).name
-        if name in teams:
-            raise ConfigError(
-                f"--model: found {name!r}, which is the name of a policy as well; call the file otherwise"
-            )
-        known = {"policy": manifest["policy"], "trained_on": manifest["examples"]}
-        teams[name] = Team(_driver("avoiding"), model.on_readings, known)
     for team in teams.values():
         if team.decide is not None:
             team.decide(np.full((1, 24), 2.0))  # compiled and loaded before the clock runs
@@ -146,14 +154,19 @@ def _teams(options: Mapping[str, Any], seed: int) -> "tuple[ClosedLoop, dict[str
 
 def _parts(name: str) -> tuple[str, str]:
     """Return the names of the driver and of the policy, or of no policy, that a name stands for."""
-    from pathloom.kernel.registry import default_registry
     from pathloom.local.drivers.driver import Driver
 
     driver, colon, policy = name.partition(":")
     if colon:
         return driver, policy
-    drivers = {n for e in default_registry().all_entries(Driver) for n in (e.name, e.component.name)}
-    return (name, "") if name in drivers else ("avoiding", name)
+    return (name, "") if name in _called(Driver) else ("avoiding", name)
+
+
+def _called(kind: "type[Component]") -> set[str]:
+    """Return the names of all components of a kind, with and without that of their plugin."""
+    from pathloom.kernel.registry import default_registry
+
+    return {n for e in default_registry().all_entries(kind) for n in (e.name, e.component.name)}
 
 
 def _driver(name: str) -> "Driver":
@@ -195,15 +208,17 @@ def _planned(instance: "Instance", options: Mapping[str, Any], seed: int) -> "Re
 
 def _notes(drives: "Drives") -> list[str]:
     """Return what a reader of the numbers ought to know."""
-    from pathloom.local.surroundings import cell_side
+    from pathloom.local.driving import points_along
+    from pathloom.local.surroundings import Surroundings, cell_side
 
     notes = []
     radius = drives.loop.robot.radius
     for instance, path in zip(drives.instances, drives.paths, strict=True):
-        room = path.metrics.get("min_clearance")
-        metres = None if room is None else room * cell_side(instance.problem.grid, drives.loop.cell)
-        if metres is not None and metres < radius:
-            near = f"the path comes as near as {metres:.2f} m to a wall"
+        grid, cell = instance.problem.grid, cell_side(instance.problem.grid, drives.loop.cell)
+        walls = Surroundings(grid, cell)  # the path's own clearance is that to obstacles grown by the radius
+        room = min(walls.clearance(x, y, radius) for x, y in points_along(path.path, grid.height, cell))  # type: ignore[arg-type]
+        if room < radius:
+            near = f"the path comes as near as {room:.2f} m to a wall"
             notes.append(
                 f"{instance.name}: {near}, nearer than the robot's radius of {radius:g} m; try --planner dijkstra"
             )
@@ -220,7 +235,7 @@ def _notes(drives: "Drives") -> list[str]:
 def _show(drives: "Drives", out: "Console") -> None:
     from rich.table import Table
 
-    from pathloom.study.driving import ARRIVED, CLEARANCE, SECONDS
+    from pathloom.study.driving import ARRIVED, CLEARANCE, SECONDS, UNHURT
 
     loop, (_, verdicts) = drives.loop, drives.compared()
     episodes = len(drives.all_of(next(iter(drives.teams)))) // len(drives.instances)
@@ -241,13 +256,13 @@ def _show(drives: "Drives", out: "Console") -> None:
             f"{timing['steps_per_second']:.0f}", f"{timing['milliseconds_per_decision']:.3f}",
         )  # fmt: skip
     out.print(table)
-    shown = [verdict for verdict in verdicts if verdict.shown]
+    shown = [verdict for verdict in verdicts if verdict.shown and verdict.metric in (UNHURT.name, ARRIVED.name)]
     if shown:
         out.print()
     for verdict in shown:
         out.print(verdict.text, soft_wrap=True)
     if len(shown) < len(verdicts):
-        out.print(f"{len(verdicts) - len(shown)} other comparisons show no effect; --json gives all.")
+        out.print(f"{len(verdicts) - len(shown)} more, of time and clearance or without an effect: --json gives all.")
 
 
 def _rate(rate: Any) -> str:
@@ -276,4 +291,6 @@ def _draw(drives: "Drives", options: Mapping[str, Any]) -> None:
         name = next(iter(moments))
         animate_drive(moments[name], options["plot"], title=name, end=ends[name], step=loop.step, **shared)
         return
-    save(drive_figure(moments, ends, title=f"One drive on {instance.name}", **shared), options["plot"])
+    standing = next(iter(again.values())).standing
+    figure = drive_figure(moments, ends, standing=standing, title=f"One drive on {instance.name}", **shared)
+    save(figure, options["plot"])

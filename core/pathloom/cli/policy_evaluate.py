@@ -47,7 +47,7 @@ def command(**options: Any) -> None:
     asking.check_files(options, plot=PLOTS, out=None)
     if options["model"] is not None and options["policies"] is not None:
         raise ConfigError("--model and --policies: found both, allowed one of them")
-    names = learning.names_in(options["policies"] or PAPERS, "--policies")
+    names = learning.names_in(PAPERS if options["policies"] is None else options["policies"], "--policies")
 
     from pathloom.cli import console
     from pathloom.local import ClosedLoop, evaluate, load_model
@@ -141,7 +141,7 @@ def _show(found: Mapping[str, "Evaluation"], examples: "Examples", out: "Console
     out.print(f"{examples.name}: {len(examples)} examples of {examples.width} distances", soft_wrap=True)
     draws = len(first.holdouts)
     what = f"hold-out, {first.train} to learn from and {first.test} for the test" + (
-        f", {draws} draws" if draws > 1 else ""
+        f", means of {draws} draws, the worst and the best in brackets" if draws > 1 else ""
     )
     out.print(f"{what}; ten folds as they stand in the file, and shuffled; in %")
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -151,9 +151,16 @@ def _show(found: Mapping[str, "Evaluation"], examples: "Examples", out: "Console
     for name, it in found.items():
         mean = Measures.mean(it.holdouts)
         folds = [Measures.mean(it.tenfold[order]).accuracy for order in ("file", "shuffled")]
-        values = (mean.accuracy, mean.precision, mean.recall, mean.f1, mean.mcc, *folds)
-        table.add_row(name, *(f"{100 * value:.1f}" for value in values))
+        values = (mean.precision, mean.recall, mean.f1, mean.mcc, *folds)
+        table.add_row(name, _accuracy(it), *(f"{100 * value:.1f}" for value in values))
     out.print(table)
+
+
+def _accuracy(found: "Evaluation") -> str:
+    """Return the mean accuracy of all hold-outs, and that of the worst and the best where there are several."""
+    each = [100 * one.accuracy for one in found.holdouts]
+    mean = f"{sum(each) / len(each):.1f}"
+    return f"{mean} [{min(each):.1f}, {max(each):.1f}]" if len(each) > 1 else mean
 
 
 def _draw(found: Mapping[str, "Evaluation"], examples: "Examples", options: Mapping[str, Any]) -> None:

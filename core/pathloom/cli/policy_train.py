@@ -1,11 +1,17 @@
 """``pathloom policy train``: learn from examples, and keep what was learned."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from pathloom.cli import asking, learning
 from pathloom.errors import ConfigError
+
+if TYPE_CHECKING:
+    from pathloom.local import Model
+
+LEAVES = 16
+"""A tree of at most so many leaves is shown."""
 
 
 @click.command("train")
@@ -56,4 +62,22 @@ def command(**options: Any) -> None:
         soft_wrap=True,
     )
     out.print(f"{examples.name}, sha256 {examples.sha256[:16]}…", soft_wrap=True)
+    for line in _rules(model):
+        out.print(line, soft_wrap=True)
     out.print(f"right on {100 * accuracy:.1f} % of them; on others: pathloom policy evaluate", soft_wrap=True)
+
+
+def _rules(model: "Model") -> list[str]:
+    """Return the lines of a small decision tree; none for any other classifier."""
+    from sklearn.tree import DecisionTreeClassifier, export_text
+
+    from pathloom.local.actions import NAMES
+    from pathloom.local.sectors import ARCS, SENSORS
+
+    tree = model.classifier
+    if not isinstance(tree, DecisionTreeClassifier) or tree.get_n_leaves() > LEAVES:
+        return []
+    features = list(ARCS) if model.width <= len(ARCS) else [f"sensor {k}" for k in range(1, SENSORS + 1)]
+    classes = [NAMES[action] for action in tree.classes_]
+    shown = export_text(tree, feature_names=features[: model.width], class_names=classes, decimals=3)
+    return list(shown.splitlines())

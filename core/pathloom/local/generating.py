@@ -5,6 +5,7 @@ import numpy as np
 from pathloom.errors import ConfigError
 from pathloom.grid import OccupancyGrid
 from pathloom.kernel.evaluation import Floats
+from pathloom.local.actions import Action
 from pathloom.local.examples import Examples
 from pathloom.local.policy import Rule
 from pathloom.local.robot import Pose, Robot
@@ -89,13 +90,31 @@ def free_poses(around: Surroundings, count: int, radius: float, rng: np.random.G
 def _along_the_way(
     around: Surroundings, count: int, expert: Rule, robot: Robot, sensing: Ultrasound, rng: np.random.Generator
 ) -> Floats:
-    """Return what the expert senses as it drives, (count, 24); where it would hit something it is set down anew."""
-    pose = Pose(*free_poses(around, 1, robot.radius, rng)[0])
+    """Return what the expert senses as it drives, (count, 24).
+
+    It is set down anew where it would hit something, and where it has lost the wall: after a full circle to the left.
+    """
+    circle = round(2.0 * np.pi / (robot.slight_turn * STEP))
     readings = np.empty((count, SENSORS))
+    pose, circling = None, 0
     for row in range(count):
+        if pose is None:
+            pose, circling = _beside_a_wall(around, expert, robot, sensing, rng), 0
         readings[row] = sensing.read(around, np.array([pose]), rng)[0]
         action = int(expert.decide(readings[row : row + 1])[0])
+        circling = circling + 1 if action == Action.SLIGHT_LEFT else 0
         pose = pose.after(robot.motion(action), STEP)
-        if around.clearance(pose.x, pose.y, robot.radius) < robot.radius:
-            pose = Pose(*free_poses(around, 1, robot.radius, rng)[0])
+        if circling >= circle or around.clearance(pose.x, pose.y, robot.radius) < robot.radius:
+            pose = None
     return readings
+
+
+def _beside_a_wall(
+    around: Surroundings, expert: Rule, robot: Robot, sensing: Ultrasound, rng: np.random.Generator
+) -> Pose:
+    """Return a free pose at which the expert does not look for a wall on its left; the last one tried if none is."""
+    for _ in range(TRIES):
+        pose = free_poses(around, 1, robot.radius, rng)
+        if int(expert.decide(sensing.read(around, pose, rng))[0]) != Action.SLIGHT_LEFT:
+            break
+    return Pose(*pose[0])

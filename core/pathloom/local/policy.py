@@ -70,6 +70,7 @@ class LearnedPolicy(Policy, ABC):
             with warnings.catch_warnings(record=True) as said:
                 warnings.simplefilter("always")
                 classifier.fit(examples.distances, examples.actions)
+                classifier.predict(examples.distances[:1])  # neighbours are counted no earlier
         except ValueError as error:  # too few examples for as many neighbours, a parameter out of its range
             raise ConfigError(f"{self.name}: not trained on {len(examples)} examples: {first_line(error)}") from error
         for warning in said:

@@ -2,6 +2,7 @@
 
 import math
 import re
+import warnings
 
 import numpy as np
 
@@ -12,8 +13,8 @@ from pathloom.local.examples import Examples
 from pathloom.local.sectors import WIDTHS
 from pathloom.naming import closest, meant
 
-OPENML = {24: 1, 4: 2, 2: 3}
-"""Version of the data set ``wall-robot-navigation`` on OpenML by the number of distances."""
+OPENML = {24: (1,), 4: (3, 2), 2: (2, 3)}
+"""Versions of the data set ``wall-robot-navigation`` on OpenML to look at, by the number of distances."""
 COUNTS = {2205: Action.FORWARD, 826: Action.SLIGHT_RIGHT, 2097: Action.SHARP_RIGHT, 328: Action.SLIGHT_LEFT}
 """How often each action occurs in the data: no two as often, so that they tell which number stands for which."""
 
@@ -74,11 +75,16 @@ def fetch_examples(name: str) -> Examples:
     asked = re.fullmatch(r"openml(?::(\d+))?", name)
     width = int(asked[1] or 4) if asked else 0
     if width not in OPENML:
-        raise ConfigError(f"{name}: found no such data, allowed {closest(name, [f'openml:{w}' for w in OPENML])}")
+        raise ConfigError(f"{name}: found no such data; {closest(name, [f'openml:{w}' for w in OPENML])}")
     from sklearn.datasets import fetch_openml
 
     try:
-        fetched = fetch_openml("wall-robot-navigation", version=OPENML[width], as_frame=False, parser="liac-arff")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # that it tries again; what comes of it is said below
+            for version in OPENML[width]:
+                fetched = fetch_openml("wall-robot-navigation", version=version, as_frame=False, parser="liac-arff")
+                if fetched.data.shape[1] == width:
+                    break
     except Exception as error:  # whatever a network, a proxy or a server comes up with
         cause = " ".join(str(error).split()) or type(error).__name__
         raise ConfigError(f"{name}: not fetched ({cause}); allowed with a network, or a file instead") from error

@@ -14,10 +14,13 @@ from collections.abc import Iterator
 from importlib.metadata import version
 from typing import Any
 
+import numpy as np
+
 from pathloom.errors import ConfigError, PathloomError
 from pathloom.files import FilePath, content, refusal, replace, shown
 from pathloom.kernel.compose import build, freeze
 from pathloom.kernel.registry import default_registry
+from pathloom.local.actions import Action
 from pathloom.local.examples import Examples
 from pathloom.local.policy import LearnedPolicy, Model, Policy, first_line
 from pathloom.local.sectors import WIDTHS
@@ -108,8 +111,15 @@ def load_model(path: FilePath) -> tuple[Model, dict[str, Any]]:
     model = Model(policy, classifier, width)
     try:
         _ = model.forest  # its trees are checked before anything walks them
+        actions = {*np.asarray(classifier.classes_).tolist(), *model(np.ones((1, width))).tolist()}
     except PathloomError as error:
         raise ConfigError(f"{path}: {error}") from error
+    except Exception as error:  # whatever forged numbers make of scikit-learn
+        raise refusal(
+            path, "model.skops", f"what cannot decide ({first_line(error)})", "a model as it was written"
+        ) from error
+    if not actions <= set(Action):
+        raise refusal(path, "model.skops", "actions that there are not", f"0 to {len(Action) - 1}")
     return model, manifest
 
 
@@ -142,6 +152,11 @@ def _check_manifest(manifest: dict[str, Any], path: FilePath) -> None:
         raise refusal(path, "manifest.json: policy", shown(manifest.get("policy")), "a table with 'use'")
     if manifest.get("distances") not in WIDTHS:
         raise refusal(path, "manifest.json: distances", shown(manifest.get("distances")), "2, 4 or 24")
+    if not isinstance(manifest.get("sha256"), str):
+        raise refusal(path, "manifest.json: sha256", shown(manifest.get("sha256")), "the model's digest")
+    examples = manifest.get("examples")
+    if not isinstance(examples, dict) or not isinstance(examples.get("name"), str):
+        raise refusal(path, "manifest.json: examples", shown(examples), "a table with 'name'")
     used = manifest.get("versions")
     then = used.get("scikit-learn") if isinstance(used, dict) else None
     now = version("scikit-learn")

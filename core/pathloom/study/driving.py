@@ -70,7 +70,7 @@ class Drives:
         """Return the median of a team's episodes that have a value."""
         costs = np.array([_cost(episode, metric) for episode in self.all_of(name)])
         known = costs[np.isfinite(costs)]
-        return float(np.median(known)) * metric.sign if len(known) else None
+        return float(np.median(known)) * metric.sign + 0.0 if len(known) else None  # + 0.0: no −0
 
     def compared(self, alpha: float = 0.05) -> tuple[tuple[Comparison, ...], tuple[Verdict, ...]]:
         """Return the comparisons of all teams in every metric, map by map, and what they say in sentences."""

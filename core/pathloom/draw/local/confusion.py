@@ -89,7 +89,7 @@ def _matrix(axes: Any, name: str, counts: Any, colours: Any, *, left: bool, belo
     axes.set_yticks(range(len(ACTIONS)), ACTIONS if left else [""] * len(ACTIONS), size=SMALL)
     axes.tick_params(length=0)
     if left:
-        axes.set_ylabel("right was", size=TEXT, color=colours.ink)
+        axes.set_ylabel("real", size=TEXT, color=colours.ink)
     if below:
         axes.set_xlabel("predicted", size=TEXT, color=colours.ink)
     strong = colours.ground if colours.ground < "#800000" else "#ffffff"

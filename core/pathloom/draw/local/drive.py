@@ -1,7 +1,7 @@
 """Drives on their map: the planned path, the ways that were taken, and what was in the way."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,6 +38,7 @@ def drive_figure(
     path: ArrayLike,
     cell: float,
     radius: float,
+    standing: int,
     title: str = "",
     dark: bool = False,
 ) -> "Figure":
@@ -57,6 +58,8 @@ def drive_figure(
         Metres of a cell's side.
     radius
         Of the robot, in metres; it is drawn where a drive ended.
+    standing
+        How many of the discs stand, the first ones; those that walk are drawn hollow, where they were at the start.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -78,14 +81,18 @@ def drive_figure(
     )
     handles.append(route)
     first = next(iter(drives.values()))
-    for x, y, size in first[0].discs:
-        axes.add_patch(Circle((x, y), size, facecolor=colours.optimum, edgecolor=colours.ink, linewidth=0.6, zorder=3))
-    handles.append(
-        Line2D(
-            [], [], marker="o", linestyle="", color=colours.optimum, markeredgecolor=colours.ink,
-            label="not on the map, at the start",
-        )
-    )  # fmt: skip
+    full: dict[str, Any] = {"facecolor": colours.optimum, "edgecolor": colours.ink, "linewidth": 0.6}
+    hollow: dict[str, Any] = {"facecolor": "none", "edgecolor": colours.optimum, "linewidth": 1.6}
+    for discs, look, what in (
+        (first[0].discs[:standing], full, "stands, not on the map"),
+        (first[0].discs[standing:], hollow, "walks, where it was first"),
+    ):
+        for x, y, size in discs:
+            axes.add_patch(Circle((x, y), size, zorder=3, **look))
+        if len(discs):
+            face, edge, width = look.values()
+            mark = {"markerfacecolor": face, "markeredgecolor": edge, "markeredgewidth": width}
+            handles.append(Line2D([], [], marker="o", linestyle="", label=what, **mark))
     for place, (name, moments) in enumerate(drives.items()):
         x, y = np.array([moment[:2] for moment in moments]).T
         look = line(place, dark=dark)

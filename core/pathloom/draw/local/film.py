@@ -93,6 +93,8 @@ class _Stage:
         shown = np.where(coarse(walls, high, wide)[..., np.newaxis], rgb(self.colours.wall), rgb(self.colours.free))
         self.back.paste(Image.fromarray(shown.astype(np.uint8)), (self.left, SMOOTH * HEADER))
         self.font = ImageFont.load_default(15 * SMOOTH)
+        border = self.left, SMOOTH * HEADER, self.left + wide, SMOOTH * HEADER + high
+        ImageDraw.Draw(self.back).rectangle(border, outline=self.colours.wall, width=SMOOTH)
         ways = [self._at((col + 0.5) * cell, (rows - 0.5 - row) * cell) for row, col in path]
         ImageDraw.Draw(self.back).line(ways, fill=self.colours.closed, width=4 * SMOOTH, joint="curve")
 

@@ -57,11 +57,18 @@ class View:
         wide = self.robot.radius + margin
         return bool(((along > 0.0) & (along < self.distance + wide) & (beside < wide)).any())
 
-    def nears(self, motion: Motion, seconds: float, margin: float) -> bool:
-        """Say whether a motion brings the rim within a margin of something sensed, and nearer than it is now."""
+    def threat(self, motion: Motion, seconds: float, margin: float) -> tuple[float, float] | None:
+        """Return what a motion brings the rim within a margin of, and nearer than it is now; of several the nearest.
+
+        Metres ahead of the robot and to its left, as `echoes`; ``None`` where there is nothing.
+        """
         there = Pose(0.0, 0.0, 0.0).after(motion, seconds)
         now, then = (np.hypot(*(self.echoes - place).T) for place in (np.zeros(2), np.array(there[:2])))
-        return bool(((then < self.robot.radius + margin) & (then < now)).any())
+        near = np.where(then < now, then, np.inf)
+        if not (near < self.robot.radius + margin).any():
+            return None
+        ahead, left = self.echoes[int(near.argmin())]
+        return float(ahead), float(left)
 
 
 @dataclass(frozen=True, kw_only=True)
