@@ -176,6 +176,7 @@ def copied(folder: Path) -> Path:
 
 def build(*folders: Path, into: Path) -> list[Path]:
     """Build the wheels of several projects, side by side."""
+    into.mkdir(exist_ok=True)  # else they race for making it
     command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(into)]
     running = [
         subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

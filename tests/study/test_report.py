@@ -176,10 +176,10 @@ def test_a_study_without_runs_says_so_in_one_line(grid, tmp_path, monkeypatch):
     with pl.compare(["imga"], maps=[grid], runs=1, budget="evaluations=40", workers=1, out=tmp_path / "s.db"):
         pass
     import sqlite3
+    from contextlib import closing
 
-    with sqlite3.connect(tmp_path / "s.db") as db:
-        db.execute("DELETE FROM traces")
-        db.execute("DELETE FROM runs")
+    with closing(sqlite3.connect(tmp_path / "s.db")) as db:
+        db.executescript("DELETE FROM traces; DELETE FROM runs;")
     with Study.open(tmp_path / "s.db") as empty, pytest.raises(pl.ConfigError, match="no runs yet"):
         report(empty)
 

@@ -2,6 +2,7 @@
 
 import csv
 import sqlite3
+from contextlib import closing
 
 import numpy as np
 import pytest
@@ -163,7 +164,8 @@ def test_a_file_that_is_no_study_is_refused(tmp_path):
         pl.ablate("imga", maps="iga-map1", out=path, **ASKED)
     assert path.read_bytes() == before
     other = tmp_path / "other.db"
-    sqlite3.connect(other).executescript("CREATE TABLE t (x); INSERT INTO t VALUES (1);").close()
+    with closing(sqlite3.connect(other)) as db:
+        db.executescript("CREATE TABLE t (x); INSERT INTO t VALUES (1);")
     refused(other, "a database that is no study")
     refused(tmp_path, "found no such file")
 
@@ -184,7 +186,8 @@ def test_a_study_of_an_older_version_is_brought_up_to_date(copy, monkeypatch):
     with pl.Study.open(copy) as study:
         assert list(study._store.reading("SELECT DISTINCT mood FROM runs")) == [(None,)]
     assert rows_of(copy) == before
-    assert sqlite3.connect(copy).execute("PRAGMA user_version").fetchone() == (2,)
+    with closing(sqlite3.connect(copy)) as db:
+        assert db.execute("PRAGMA user_version").fetchone() == (2,)
 
 
 def test_a_migration_that_fails_leaves_the_file_as_it_was(copy, monkeypatch):
