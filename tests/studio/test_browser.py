@@ -171,6 +171,7 @@ def test_a_run_is_paused_stepped_and_scrubbed(open_page, tmp_path):
     page.says("#generation", re.compile(r"generation ([5-9]|\d\d) of 50"))
     page.locator("body").press("p")
     page.says("#run", "Go on")
+    page.wait_for_timeout(250)
     held = page.inner_text("#generation")
     page.wait_for_timeout(250)
     assert page.inner_text("#generation") == held  # paused is paused
@@ -244,7 +245,7 @@ def test_an_unreachable_goal_is_said_where_the_finger_is(open_page, tmp_path):
     page.click("#undo")
     page.expect(bubble).to_be_hidden()
     page.drag((7, 0), (2, 2))  # the start, by hand
-    assert "start 2, 2" in page.locator(".stage canvas").first.get_attribute("aria-label")
+    page.expect(page.locator(".stage canvas").first).to_have_attribute("aria-label", re.compile("start 2, 2"))
 
 
 def test_all_can_be_done_by_keyboard(open_page, tmp_path):
@@ -290,8 +291,7 @@ def test_a_dot_of_the_front_shows_its_path(open_page, tmp_path):
     for _ in range(8):
         page.keyboard.press("ArrowLeft")
     page.says(".chart.front p", re.compile(r"^\d+ of \d+: length "))
-    after = page.locator(".stage canvas").first.evaluate("canvas => canvas.toDataURL()")
-    assert after != before
+    page.wait_for_function("before => document.querySelector('.stage canvas').toDataURL() !== before", arg=before)
     shown = np.loadtxt(page.saved("path", tmp_path), delimiter=",", skiprows=1, dtype=int)
     length = float(re.findall(r"length ([\d.]+)", page.inner_text(".chart.front p >> nth=0"))[0])
     assert np.hypot(*np.diff(shown, axis=0).T).sum() == pytest.approx(length, abs=1e-3)
@@ -311,7 +311,8 @@ def test_a_link_holds_map_planners_and_seed_and_a_damaged_one_says_so(open_page,
     page.open(link)
     assert page.input_value("#seed") == "11"
     assert page.inner_text(".stage .name >> nth=0") == "iga"
-    assert "3 rows and 6 columns" in page.locator(".stage canvas").first.get_attribute("aria-label")
+    label = re.compile("3 rows and 6 columns")
+    page.expect(page.locator(".stage canvas").first).to_have_attribute("aria-label", label)
     page.evaluate("location.hash = '#studio1.AAAA'")
     page.says("#note", "damaged")
     assert "3 rows" in page.locator(".stage canvas").first.get_attribute("aria-label")
@@ -366,7 +367,7 @@ def test_nothing_is_wider_than_the_window_and_the_theme_is_the_systems(open_page
     for width, scheme in ((1280, "light"), (390, "dark")):
         page.set_viewport_size({"width": width, "height": 844})
         page.emulate_media(color_scheme=scheme)
-        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        page.wait_for_function("width => document.documentElement.scrollWidth <= width", arg=width)
         ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
         assert (sum(map(int, re.findall(r"\d+", ground)[:3])) < 120) is (scheme == "dark")
     page.click("#theme")  # from auto to light
