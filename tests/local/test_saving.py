@@ -91,6 +91,21 @@ def test_a_model_of_actions_that_there_are_not_or_of_too_few_numbers_is_refused(
         assert says in refusal(file)
 
 
+@pytest.mark.parametrize(("at", "byte"), [(6, 1), (8, 99), (45, 255)], ids=["locked", "unknown packing", "damaged"])
+def test_a_model_that_no_zip_reader_can_read_is_refused(saved, at, byte):
+    with zipfile.ZipFile(saved) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    with zipfile.ZipFile(saved, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in parts.items():
+            archive.writestr(name, data)
+    data = bytearray(saved.read_bytes())
+    data[at] = byte
+    if at < 30:  # the flags and the packing are told a second time, at the end
+        data[data.index(b"PK\x01\x02") + at + 2] = byte
+    saved.write_bytes(data)
+    assert "found no zip file, or a damaged one" in refusal(saved)
+
+
 def test_what_is_no_model_is_refused(tmp_path):
     file = tmp_path / "no.skops"
     for content in (b"", b"no zip", b"PK\x03\x04" + bytes(40)):

@@ -10,8 +10,6 @@ import io
 import json
 import math
 import sys
-import zipfile
-import zlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -24,14 +22,12 @@ from pathloom.kernel.planner import Planner
 from pathloom.kernel.problem import Problem
 from pathloom.kernel.registry import default_registry
 from pathloom.kernel.state import State
+from pathloom.zips import UNREADABLE
 
 SCHEMA = "pathloom.state/1"
 TEXT = "state"
 """Name of the text among the arrays."""
-DAMAGE = (
-    ValueError, TypeError, LookupError, AttributeError, EOFError, OSError, RecursionError,
-    zlib.error, zipfile.BadZipFile,
-)  # fmt: skip
+DAMAGE = (ValueError, TypeError, LookupError, AttributeError, OSError, *UNREADABLE)
 """What reading a file may raise that is not what `pack` made, or no longer is."""
 
 

@@ -24,6 +24,7 @@ from pathloom.local.actions import Action
 from pathloom.local.examples import Examples
 from pathloom.local.policy import LearnedPolicy, Model, Policy, first_line
 from pathloom.local.sectors import WIDTHS
+from pathloom.zips import UNREADABLE
 
 SCHEMA = "pathloom.policy-model/1"
 MEMBERS = ("manifest.json", "model.skops")
@@ -133,12 +134,11 @@ def _unpacked(path: FilePath) -> tuple[dict[str, Any], bytes]:
             if sum(info.file_size for info in found) > LARGEST:
                 raise refusal(path, "", "a model larger than 256 MiB", "a smaller one")
             manifest, packed = (archive.read(name) for name in MEMBERS)
-        document = json.loads(manifest)
-    except (zipfile.BadZipFile, NotImplementedError, EOFError, RuntimeError) as error:
+    except UNREADABLE as error:
         raise refusal(path, "", f"no zip file, or a damaged one ({first_line(error)})", allowed) from error
+    try:
+        document = json.loads(manifest)
     except (ValueError, RecursionError) as error:
-        if isinstance(error, PathloomError):
-            raise
         raise refusal(path, "manifest.json", "no JSON", allowed) from error
     if not isinstance(document, dict):
         raise refusal(path, "manifest.json", "no table", allowed)

@@ -23,6 +23,7 @@ from pathloom.grid import OccupancyGrid
 from pathloom.study.bundle.packing import DESIGN, STORE, SUMS, described
 from pathloom.study.errors import StudyError
 from pathloom.study.schema import APPLICATION, MIGRATIONS, VERSION
+from pathloom.zips import UNREADABLE
 
 MOST_MEMBERS = 20_000
 LARGEST = 2 << 30
@@ -63,12 +64,7 @@ def _unpacked(path: FilePath, store: Path) -> dict[str, Any]:
             _check_members(path, archive)
             _check_sums(path, archive, store)
             design = _design(path, archive)
-    except (
-        zipfile.BadZipFile,
-        zlib.error,
-        EOFError,
-        NotImplementedError,  # what zipfile raises for an archive that asks for more than it can read
-    ) as error:
+    except UNREADABLE as error:
         raise StudyError(f"{path}: found no whole zip file ({one_line(str(error))}), allowed a bundle") from error
     except FileNotFoundError as error:
         raise StudyError(f"{path}: found no such file, allowed a bundle") from error
